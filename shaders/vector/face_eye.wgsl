@@ -11,12 +11,12 @@
 
 @group(0) @binding(0) var<uniform> viewer: Viewer;
 @group(0) @binding(1) var<storage, read> positions: array<f32>;
-@group(0) @binding(2) var<storage, read> half_edges: array<HalfEdge>;
+@group(0) @binding(2) var<storage, read> corners: array<u32>;
 @group(0) @binding(3) var<storage, read> judges: array<u32>;
 @group(0) @binding(4) var<storage, read_write> front: array<u32>;
 
-fn corner(half_edge: u32) -> vec3<f32> {
-    let at = 3u * half_edges[half_edge].tail;
+fn corner(index: u32) -> vec3<f32> {
+    let at = 3u * corners[index];
     return vec3<f32>(positions[at], positions[at + 1u], positions[at + 2u]);
 }
 

@@ -196,7 +196,7 @@ impl Run<'_> {
 
         // Count the bytes.
         for (index, slot) in node.pass.slots.iter().enumerate() {
-            if slot.is_bound_for(self.graph.features()) {
+            if slot.is_read_for(self.graph.features()) {
                 self.add_slot(&mut cost, node, (index, slot), extent);
             }
         }
@@ -242,6 +242,7 @@ impl Run<'_> {
             slot.access,
             Access::Uniform
                 | Access::Read
+                | Access::Indices
                 | Access::Update
                 | Access::Texture(_)
                 | Access::Layered(_)

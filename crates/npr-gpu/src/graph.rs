@@ -116,6 +116,13 @@ impl Node {
         let layers = images.iter().zip(&self.layers);
         layers.map(|(image, layer)| image.layer(*layer))
     }
+
+    /// The indices of its vertices, where it draws with them.
+    pub fn indices(&self) -> Option<ResourceId> {
+        let mut bound = self.pass.slots.iter().zip(&self.bound);
+        let found = bound.find(|(slot, _)| slot.access == Access::Indices);
+        found.map(|(_, id)| *id)
+    }
 }
 
 /// Resources and nodes, in the order in which the nodes run.
@@ -317,6 +324,7 @@ impl Graph {
                 (
                     Kind::Buffer { stride, .. },
                     Access::Read
+                    | Access::Indices
                     | Access::Write
                     | Access::Update
                     | Access::Scatter
@@ -354,7 +362,7 @@ impl Graph {
             let fits = matches!(self.resource(arguments).kind, Kind::Buffer { stride, count }
                 if stride == size_of::<Arguments>() && index < count);
             assert!(
-                fits && writes(&node).all(|id| id != arguments),
+                fits && node.indices().is_none() && writes(&node).all(|id| id != arguments),
                 "pass {} cannot take its size from '{}'",
                 pass.name,
                 self.resource(arguments).name

@@ -44,7 +44,7 @@ pub enum Work {
         /// The slot that holds the list.
         of: &'static str,
     },
-    /// Triangles without vertex buffers: entry points `vertex` and `fragment`.
+    /// Triangles without vertex buffers: entry points `vertex` and `fragment`. Of indices there is one vertex each.
     Draw {
         /// The slot that is counted.
         of: &'static str,
@@ -105,6 +105,11 @@ impl Slot {
 
     /// Whether a shader for `features` binds it.
     pub fn is_bound_for(&self, features: Features) -> bool {
+        self.access != Access::Indices && self.is_read_for(features)
+    }
+
+    /// Whether a device reads or writes it for `features`, bound or as indices.
+    pub fn is_read_for(&self, features: Features) -> bool {
         !self.is_for_twin && self.serves.serve(features)
     }
 }
@@ -122,6 +127,8 @@ pub enum Access {
     Update,
     /// An array in a storage buffer that is 0 before the pass, which writes some of its elements.
     Scatter,
+    /// The index buffer of a draw: the element of every vertex. Shaders see `vertex_index` alone.
+    Indices,
     /// A list in a storage buffer that invocations append to: the number of its elements, which is 0 before the pass,
     /// then the elements in any order.
     Append,
@@ -235,6 +242,15 @@ pub const fn scatter<T: GpuLayout>(name: &'static str) -> Slot {
     Slot {
         access: Access::Scatter,
         ..write::<T>(name)
+    }
+}
+
+/// The indices of a draw: three vertices a triangle, shaded once where triangles share them. It comes after the slots
+/// that shaders bind.
+pub const fn indices(name: &'static str) -> Slot {
+    Slot {
+        access: Access::Indices,
+        ..read::<u32>(name)
     }
 }
 

@@ -18,6 +18,8 @@ pub struct Contours {
     pub positions: ResourceId,
     /// [`HalfEdge`]s; written once.
     pub half_edges: ResourceId,
+    /// The vertices of every face, three each; written once.
+    pub corners: ResourceId,
     /// The face that decides about each face; written once.
     pub judges: ResourceId,
     /// Whether each face is turned to the eye.
@@ -49,12 +51,13 @@ pub fn add_contours(
     // Tell which faces look at the eye.
     let viewer = graph.uniform::<Viewer>("viewer");
     let positions = graph.buffer::<f32>("positions", 3 * vertex_count);
+    let corners = graph.buffer::<u32>("corners", 3 * face_count);
     let half_edges = graph.buffer::<HalfEdge>("half-edges", 3 * face_count);
     let judges = graph.buffer::<u32>("judges", face_count);
     let front = graph.buffer::<u32>("front faces", face_count);
     graph.compute(
         &vector::FACE_EYE,
-        &[viewer, positions, half_edges, judges, front],
+        &[viewer, positions, corners, judges, front],
     );
 
     // Mark half-edges between a face that does and one that does not.
@@ -86,6 +89,7 @@ pub fn add_contours(
     Contours {
         viewer,
         positions,
+        corners,
         half_edges,
         judges,
         front,

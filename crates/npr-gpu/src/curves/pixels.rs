@@ -9,7 +9,7 @@ use crate::graph::{Graph, ResourceId};
 use crate::pass::Format;
 use crate::passes::{pixels, vector};
 use npr_mesh::half_edge::HalfEdgeMesh;
-use npr_vector::mesh_lines::contour::steps::{HalfEdge, Viewer, half_edges, judges};
+use npr_vector::mesh_lines::contour::steps::{Viewer, judges};
 use npr_vector::pixel_strokes::edge::DrawnEdge;
 use npr_vector::pixel_strokes::fragment::Fragment;
 use npr_vector::pixel_strokes::looped::{Filter, SpeckRule, Spot};
@@ -80,8 +80,8 @@ pub struct PixelContours {
     pub view: ResourceId,
     /// Coordinates of the vertices; written whenever they move.
     pub positions: ResourceId,
-    /// [`HalfEdge`]s; written once.
-    pub half_edges: ResourceId,
+    /// The vertices of every face, three each; written once.
+    pub corners: ResourceId,
     /// The face that decides about each face; written once.
     pub judges: ResourceId,
     /// [`DrawnEdge`]s; written once.
@@ -121,12 +121,12 @@ pub fn add_pixel_contours(
     let viewer = graph.uniform::<Viewer>("viewer");
     let view = graph.uniform::<PixelView>("pixel view");
     let positions = graph.buffer::<f32>("positions", 3 * shape.positions.len());
-    let half_edges = graph.buffer::<HalfEdge>("half-edges", 3 * shape.faces.len());
+    let corners = graph.buffer::<u32>("corners", 3 * shape.faces.len());
     let judges = graph.buffer::<u32>("judges", shape.faces.len());
     let front = graph.buffer::<u32>("front faces", shape.faces.len());
     graph.compute(
         &vector::FACE_EYE,
-        &[viewer, positions, half_edges, judges, front],
+        &[viewer, positions, corners, judges, front],
     );
 
     // Choose the edges that are drawn.
@@ -156,7 +156,7 @@ pub fn add_pixel_contours(
     let nearest = match hiding {
         Hiding::Given => graph.image("nearest", Format::Depth, size),
         Hiding::Surfaces | Hiding::Veiled => {
-            let bound = [view, positions, half_edges];
+            let bound = [view, positions, corners];
             graph.draw(&pixels::DRAW_SURFACES, &bound, &[surfaces], true);
             // Once fragments are tested, their own depths may take the place of those of surfaces.
             surfaces
@@ -182,7 +182,7 @@ pub fn add_pixel_contours(
         viewer,
         view,
         positions,
-        half_edges,
+        corners,
         judges,
         edges,
         occluder_depths,
@@ -482,7 +482,7 @@ impl PixelContours {
         edges: &[DrawnEdge],
     ) -> Result<(), CurvesError> {
         session.write(self.positions, bytemuck::cast_slice(&shape.positions))?;
-        session.write(self.half_edges, bytemuck::cast_slice(&half_edges(shape)))?;
+        session.write(self.corners, bytemuck::cast_slice(&shape.faces))?;
         session.write(self.judges, &judges(shape))?;
         session.write(self.edges, bytemuck::cast_slice(edges))?;
         Ok(())

@@ -169,6 +169,7 @@ impl Room {
     fn hand_over(&mut self, shape: &HalfEdgeMesh) -> Result<(), EngineError> {
         let (session, into) = (self.session.as_mut(), &self.contours);
         session.write(into.positions, bytemuck::cast_slice(&shape.positions))?;
+        session.write(into.corners, bytemuck::cast_slice(&shape.faces))?;
         session.write(into.half_edges, bytemuck::cast_slice(&half_edges(shape)))?;
         session.write(into.judges, &judges(shape))
     }

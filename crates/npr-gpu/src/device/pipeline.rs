@@ -149,6 +149,7 @@ fn binding_type(slot: &Slot) -> wgpu::BindingType {
         Access::Write | Access::Update | Access::Scatter | Access::Append => {
             buffer(wgpu::BufferBindingType::Storage { read_only: false })
         }
+        Access::Indices => unreachable!("slot {} holds indices, which are not bound", slot.name),
         Access::Texture(format) => texture(format, wgpu::TextureViewDimension::D2),
         Access::Layered(format) => texture(format, wgpu::TextureViewDimension::D2Array),
     }

@@ -64,12 +64,15 @@ impl DeviceSession {
         graph: Graph,
         times_apart: bool,
     ) -> Result<Self, EngineError> {
-        // Take memory, marked where it holds the size of later passes.
+        // Take memory, marked where it holds the size of later passes or their indices.
         gpu.check()?;
         let sizes = graph.nodes().iter().filter_map(|node| node.size);
         let mut more = vec![wgpu::BufferUsages::empty(); graph.resources().len()];
         for WorkSize { arguments, .. } in sizes {
-            more[arguments.index()] = wgpu::BufferUsages::INDIRECT;
+            more[arguments.index()] |= wgpu::BufferUsages::INDIRECT;
+        }
+        for id in graph.nodes().iter().filter_map(Node::indices) {
+            more[id.index()] |= wgpu::BufferUsages::INDEX;
         }
         let memory: Vec<Memory> = graph
             .resources()
@@ -233,9 +236,14 @@ impl DeviceSession {
                 let mut pass = self.begin_draw(encoder, node, stamps);
                 pass.set_pipeline(pipeline);
                 pass.set_bind_group(0, &step.bindings, &[]);
-                match node.size {
-                    None => pass.draw(0..count, 0..1),
-                    Some(size) => {
+                match (node.indices(), node.size) {
+                    (Some(indices), _) => {
+                        let corners = self.array(indices).slice(..);
+                        pass.set_index_buffer(corners, wgpu::IndexFormat::Uint32);
+                        pass.draw_indexed(0..count, 0, 0..1);
+                    }
+                    (None, None) => pass.draw(0..count, 0..1),
+                    (None, Some(size)) => {
                         let (buffer, offset) = self.arguments(size);
                         pass.draw_indirect(buffer, offset);
                     }
@@ -250,10 +258,13 @@ impl DeviceSession {
 
     /// Where the device finds the size of a node: a buffer, and an offset in bytes.
     fn arguments(&self, WorkSize { arguments, index }: WorkSize) -> (&wgpu::Buffer, u64) {
-        match &self.memory[arguments.index()] {
-            Memory::Buffer(buffer) => (buffer, (index * size_of::<Arguments>()) as u64),
-            Memory::Image(_) => unreachable!("graphs take sizes from buffers alone"),
-        }
+        let offset = (index * size_of::<Arguments>()) as u64;
+        (self.array(arguments), offset)
+    }
+
+    fn array(&self, id: ResourceId) -> &wgpu::Buffer {
+        let buffer = self.buffer(id);
+        buffer.unwrap_or_else(|| unreachable!("sizes and indices are taken from buffers alone"))
     }
 
     fn begin_draw<'a>(

@@ -3,8 +3,10 @@
 //! [`crate::curves::pixels`] lines them up. Up to the links of sides they are exact; smoothing agrees within rounding,
 //! so a side whose direction lies on a threshold may be kept by one engine alone.
 
-use crate::pass::{Agreement, Format, Image, Pass, Work, read, scatter, texture, uniform, write};
-use npr_vector::mesh_lines::contour::steps::{HalfEdge, Viewer};
+use crate::pass::{
+    Agreement, Format, Image, Pass, Work, indices, read, scatter, texture, uniform, write,
+};
+use npr_vector::mesh_lines::contour::steps::Viewer;
 use npr_vector::pixel_strokes::edge::{DrawnEdge, Facing, mark_edges};
 use npr_vector::pixel_strokes::fragment::{self, Fragment};
 use npr_vector::pixel_strokes::looped::{self, Filter, Gathered, Ordered, SpeckRule, Spot};
@@ -82,10 +84,10 @@ pub const DRAW_SURFACES: Pass = Pass {
     slots: &[
         uniform::<PixelView>("view"),
         read::<f32>("positions"),
-        read::<HalfEdge>("half_edges"),
+        indices("corners"),
     ],
     work: Work::Draw {
-        of: "half_edges",
+        of: "corners",
         vertices: 1,
         targets: &[Format::Depth],
         fills: true,

@@ -23,7 +23,7 @@ pub const FACE_EYE: Pass = Pass {
     slots: &[
         uniform::<Viewer>("viewer"),
         read::<f32>("positions"),
-        read::<HalfEdge>("half_edges"),
+        read::<u32>("corners"),
         read::<u32>("judges"),
         write::<u32>("front"),
     ],

@@ -259,7 +259,8 @@ impl Lists {
         let (sides, judges): (Vec<HalfEdge>, _) = (half_edges(&shape), judges(&shape));
         let positions = shape.positions.as_flattened();
         let (mut front, mut marks) = (vec![0; judges.len()], vec![0; sides.len()]);
-        face_eye(&viewer, positions, &sides, &judges, &mut front);
+        let corners = shape.faces.as_flattened();
+        face_eye(&viewer, positions, corners, &judges, &mut front);
         mark_contours(&front, &sides, &mut marks);
         let (slots, count) = exclusive_scan(&marks);
         let mut contours = vec![0; sides.len()];
@@ -278,6 +279,7 @@ impl Lists {
         self.give("nodes", &nodes);
         self.give("viewer", &[viewer]);
         self.give("positions", positions);
+        self.give("corners", corners);
         self.give("half_edges", &sides);
         self.give("judges", &judges);
         self.give("front", &front);

@@ -1,7 +1,6 @@
 //! Depths of the surfaces that hide lines: [`draw_surfaces`] is the twin of `vector.draw_surfaces`.
 
 use super::segment::PixelView;
-use crate::mesh_lines::contour::steps::HalfEdge;
 use npr_core::geometry::{Part, Triangle};
 use npr_core::raster::{Fill, Sides, fill_triangles};
 use npr_core::surface::apply_point;
@@ -18,19 +17,10 @@ pub fn scene_depths(shape: &HalfEdgeMesh, view: &View) -> Vec<f32> {
     depths.into_iter().map(f32::from_bits).collect()
 }
 
-/// The same depths as bits, for faces given as three half-edges each.
-pub fn draw_surfaces(
-    view: &PixelView,
-    positions: &[f32],
-    half_edges: &[HalfEdge],
-    depths: &mut [u32],
-) {
-    let (faces, _) = half_edges.as_chunks::<3>();
-    let faces: Vec<[u32; 3]> = faces
-        .iter()
-        .map(|sides| sides.map(|side| side.tail))
-        .collect();
-    let (_, found) = fill(view, &faces, |vertex| {
+/// The same depths as bits, for faces given as three corners each.
+pub fn draw_surfaces(view: &PixelView, positions: &[f32], corners: &[u32], depths: &mut [u32]) {
+    let (faces, _) = corners.as_chunks::<3>();
+    let (_, found) = fill(view, faces, |vertex| {
         std::array::from_fn(|i| positions[3 * vertex as usize + i])
     });
     depths.copy_from_slice(&found);

@@ -103,7 +103,7 @@ pub fn judges(shape: &HalfEdgeMesh) -> Vec<u32> {
 pub fn face_eye(
     viewer: &Viewer,
     positions: &[f32],
-    half_edges: &[HalfEdge],
+    corners: &[u32],
     judges: &[u32],
     front: &mut [u32],
 ) {
@@ -111,7 +111,7 @@ pub fn face_eye(
     front.par_iter_mut().zip(judges).for_each(|(front, judge)| {
         *front = 0;
         if *judge != NONE {
-            let corner = |i: usize| point(positions, half_edges[*judge as usize * 3 + i].tail);
+            let corner = |i: usize| point(positions, corners[*judge as usize * 3 + i]);
             let height = eye.height_over([corner(0), corner(1), corner(2)]);
             *front = u32::from(height > 0.0);
         }
