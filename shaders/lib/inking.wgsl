@@ -143,19 +143,18 @@ fn place_in_hatch(id: u32, part: u32, weights: array<vec3<f32>, 3>, places: arra
     let index = (id & ID_MASK) - 1u;
     let flags = parts[part].flags;
     var chart: ChartCorners;
-    if (flags & PART_ON_SURFACE) != 0u { chart = chart_of(index); }
+    if (flags & PART_ON_SURFACE) != 0u {
+        chart = chart_of(index);
+    } else if (flags & PART_ON_SCREEN) == 0u {
+        let at = triangles[index].corners;
+        chart = ChartCorners(vertices[at.x].uv, vertices[at.y].uv, vertices[at.z].uv);
+    }
+    let turn = parts[part].turn;
     var uvs: array<vec2<f32>, 3>;
     for (var i = 0u; i < 3u; i++) {
         let w = weights[i];
-        var raw = places[i];
-        if (flags & PART_ON_SCREEN) == 0u {
-            if (flags & PART_ON_SURFACE) != 0u {
-                raw = chart.a * w.x + chart.b * w.y + chart.c * w.z;
-            } else {
-                raw = uv_at(triangle_of(triangles[index]), w);
-            }
-        }
-        let turn = parts[part].turn;
+        let is_laid = (flags & PART_ON_SCREEN) != 0u;
+        let raw = select(chart.a * w.x + chart.b * w.y + chart.c * w.z, places[i], is_laid);
         uvs[i] = vec2<f32>(raw.x * turn.x + raw.y * turn.y, raw.y * turn.x - raw.x * turn.y) * parts[part].tile_scale;
     }
     var place: HatchCoord;

@@ -43,6 +43,7 @@
 //# use lib/samples
 //# use lib/four
 //# use lib/surface_color
+//# use lib/base_color
 //# use lib/surface_light
 //# use lib/hull
 //# use lib/surface_line

@@ -65,6 +65,8 @@ features! {
     BACK_LIGHT = 21;
     /// Streaks lie over surfaces.
     STREAKS = 22;
+    /// Colours of surfaces differ from point to point.
+    COLORS = 23;
 }
 
 impl Features {

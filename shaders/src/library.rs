@@ -54,6 +54,7 @@ const LIBRARIES: &[Library] = &[
     always!("adapt"),
     serving!(Features::BACK_LIGHT, "back_light"),
     always!("backdrop"),
+    serving!(Features::COLORS, "base_color"),
     serving!(Features::BEAMS, "beam"),
     serving!(Features::BEAMS, "beam_ids"),
     always!("color"),

@@ -53,6 +53,13 @@ gpu_layout!(Vertex {
     chart_distortion
 });
 
+impl Vertex {
+    /// Whether it leaves the colour of its material as it is; alpha does not count.
+    pub fn is_white(&self) -> bool {
+        self.color | 0xff00_0000 == u32::MAX
+    }
+}
+
 /// Which matrices move a vertex, and how much: linear blend skinning; rigid parts use one joint.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq, Pod, Zeroable)]

@@ -22,7 +22,7 @@ use crate::tiles::Tiles;
 use glam::Vec3;
 use npr_core::budget::Budget;
 use npr_core::camera::Camera;
-use npr_core::geometry::{NONE, Part};
+use npr_core::geometry::{NONE, Part, Vertex};
 use npr_core::window::{View, Window};
 use npr_gpu::cost::{PassCost, copy_cost, pass_costs};
 use npr_gpu::engine::{Engine, EngineError, IN_FLIGHT, Session};
@@ -188,6 +188,8 @@ impl Needs {
         };
         let shows_pictures = styled.background_texture != NONE || parts.iter().any(has_picture);
 
+        let is_textured = parts.iter().any(|part| part.texture != NONE);
+        let is_colored = is_textured || !styled.vertices.iter().all(Vertex::is_white);
         let is_shaped = |part: &Part| {
             let [_, _, split_u, split_v] = part.highlight_turn;
             part.highlight_shape != [0.0; 4] || split_u != 0.0 || split_v != 0.0
@@ -204,6 +206,7 @@ impl Needs {
         let all = [
             Features::CUTOUTS.when(any(Part::CUTOUT)),
             Features::TEXTURES.when(shows_pictures),
+            Features::COLORS.when(is_colored),
             Features::TONE_ROWS.when(any(Part::TONE_ROW)),
             Features::LIGHTS.when(!is_one_sun),
             Features::SHADOWS.when(casts),

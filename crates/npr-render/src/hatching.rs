@@ -254,7 +254,7 @@ fn tinted_parts(model: &Model, style: &Style) -> Vec<bool> {
         for vertex in &model.vertices {
             // A scene without triangles has no parts, whatever its vertices say.
             if let Some(tinted) = tinted.get_mut(vertex.part as usize) {
-                *tinted |= vertex.color | 0xff00_0000 != u32::MAX;
+                *tinted |= !vertex.is_white();
             }
         }
     }

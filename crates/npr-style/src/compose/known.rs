@@ -41,7 +41,7 @@ impl Layers<'_> {
             self.even_light(part, &corners),
             self.ink_all_over(part, &corners),
         );
-        let white = |v: &u32| self.vertices[*v as usize].color | 0xff00_0000 == u32::MAX;
+        let white = |v: &u32| self.vertices[*v as usize].is_white();
         let is_plain = part.flags & Part::PLAIN != 0
             || part.texture == NONE && triangle.corners.iter().all(white);
         let is_matt = !self.may_shine(part, &corners);
