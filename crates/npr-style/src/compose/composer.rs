@@ -70,8 +70,9 @@ impl<'a> Composer<'a> {
         let seen = self.layers.samples_of(x, y);
         let lines = self.layers.lines_at(x, y, overlay);
         let beams = self.layers.beams_of(x, y);
+        let has_beams = beams.iter().any(|id| *id != 0);
         if lines == [0; 2]
-            && beams.iter().all(|id| *id == 0)
+            && !has_beams
             && let Some(texel) = self.layers.smoke_alone(x, y, &seen)
         {
             return texel;
@@ -100,9 +101,13 @@ impl<'a> Composer<'a> {
         }
 
         // Lay beams over them.
-        let covered =
+        let covered = if has_beams {
+            let smoke_layer = smoke_layer.as_ref();
             self.layers
-                .add_beams(&seen, &beams, smoke_layer.as_ref(), frame_px, &mut color);
+                .add_beams(&seen, &beams, smoke_layer, frame_px, &mut color)
+        } else {
+            0.0
+        };
 
         // Lay lines over everything, as far as neither beams nor smoke cover them.
         let faded = match &smoke_layer {
