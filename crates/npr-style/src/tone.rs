@@ -220,19 +220,37 @@ impl Layers<'_> {
         corners: &Corners<'_>,
         known: &TriangleConstants,
     ) -> Sampled {
-        // Look at every sample where an edge may go through the group.
-        let Some(light) = self.light_at_middle(group, part, corners, known) else {
+        // Look at every sample where an edge of the light may go through the group.
+        let is_even = known.is_even();
+        if !is_even && !self.is_gentle(part) {
             return self.at_samples(group, part, corners, known);
-        };
+        }
 
-        // Else take the constants, or the values at the middle.
+        // Find the surface at the middle, once for light and highlights.
+        let shines = !known.is_matt();
+        let middle = (!is_even || shines && shines_gently(part)).then(|| {
+            let weights = weights_at(corners.clip, self.view.ndc_at(group.center));
+            (corners.world(weights), corners.normal(weights))
+        });
+
+        // Take what is the same all over, or what is there.
+        let light = match middle {
+            Some((world, normal)) if !is_even => {
+                let open = self.openness(corners, group.center).at([0.0; 2]);
+                self.light_of(part, world, normal, 0, open)
+            }
+            _ if known.is_plain() => [1.0; 3],
+            _ => known.color,
+        };
         let ink = known
             .ink()
             .unwrap_or_else(|| self.ink_at(group.id, part, corners, group.center, 0));
-        let gloss = if known.is_matt() {
-            [0.0; 3]
-        } else {
-            self.gloss_of(group, part, corners)
+        let gloss = match middle {
+            _ if !shines => [0.0; 3],
+            Some((world, normal)) if shines_gently(part) => {
+                self.highlights_at(part, world, normal, 0)
+            }
+            _ => self.mean_gloss(group, part, corners),
         };
         Sampled {
             light,
@@ -242,46 +260,13 @@ impl Layers<'_> {
         }
     }
 
-    /// Light on a group, if one place stands for all of its samples.
-    fn light_at_middle(
-        &self,
-        group: &Group,
-        part: &Part,
-        corners: &Corners<'_>,
-        known: &TriangleConstants,
-    ) -> Option<[f32; 3]> {
-        // Take the light that is the same all over.
-        if known.is_even() {
-            return Some(if known.is_plain() {
-                [1.0; 3]
-            } else {
-                known.color
-            });
-        }
-
-        // Take the light at the middle if light changes gently.
-        if !self.is_gentle(part) {
-            return None;
-        }
-        let weights = weights_at(corners.clip, self.view.ndc_at(group.center));
-        let (world, normal) = (corners.world(weights), corners.normal(weights));
-        let open = self.openness(corners, group.center);
-        Some(self.light_of(part, world, normal, 0, open.at([0.0; 2])))
-    }
-
-    /// Light that highlights add to a group that lies in no shadow.
-    fn gloss_of(&self, group: &Group, part: &Part, corners: &Corners<'_>) -> [f32; 3] {
-        let gloss_at = |weights: [f32; 3]| {
-            let (world, normal) = (corners.world(weights), corners.normal(weights));
-            self.highlights_at(part, world, normal, 0)
-        };
-        if shines_gently(part) {
-            return gloss_at(weights_at(corners.clip, self.view.ndc_at(group.center)));
-        }
+    /// Light that highlights add to the samples of a group that lies in no shadow.
+    fn mean_gloss(&self, group: &Group, part: &Part, corners: &Corners<'_>) -> [f32; 3] {
         let count = group.members.count_ones() as f32;
         let mut sum = [0.0; 3];
         for (_, weights) in self.weights_of(group, corners) {
-            let gloss = gloss_at(weights);
+            let (world, normal) = (corners.world(weights), corners.normal(weights));
+            let gloss = self.highlights_at(part, world, normal, 0);
             sum = std::array::from_fn(|k| sum[k] + gloss[k] / count);
         }
         sum
