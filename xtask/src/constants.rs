@@ -95,6 +95,7 @@ const TWINS: &[Twins] = &[
     twins("lib/stretch.wgsl", "UNLIKE_WALLS", "npr-style/src/backdrop/gather.rs", "UNLIKE"),
     twins("lib/grid.wgsl", "WG", "npr-gpu/src/pass.rs", "WORKGROUP_SIZE"),
     twins("lib/ink.wgsl", "", "npr-vector/src/pixel_strokes/side.rs", ""),
+    twins("lib/ink.wgsl", "BITS_", "npr-vector/src/pixel_strokes/fragment.rs", "BITS_"),
     twins("lib/texture.wgsl", "", "npr-core/src/texture.rs", ""),
     twins("lib/tone_row.wgsl", "", "npr-style/src/tone_row.rs", ""),
     twins("lib/smoke_cover.wgsl", "SMOKE_LAYER_", "npr-style/src/smoke/resolve.rs", ""),

@@ -9,7 +9,7 @@ use npr_gpu::device::{AdapterChoice, Device};
 use npr_gpu::engine::{Engine, EngineError};
 use npr_gpu::graph::Graph;
 use npr_mesh::testing::{shape_of, uv_sphere};
-use npr_vector::mesh_lines::contour::steps::{Viewer, half_edges, judges};
+use npr_vector::mesh_lines::contour::steps::Viewer;
 use npr_vector::mesh_lines::contour::{Eye, usual_room};
 use std::time::{Duration, Instant};
 
@@ -29,11 +29,9 @@ fn main() -> Result<(), EngineError> {
             let mut sessions = Vec::new();
             for graph in [graph, plain] {
                 let mut session = device.prepare(graph)?;
-                let (viewer, sides) = ([Viewer::from(&eye)], half_edges(&shape));
+                let viewer = [Viewer::from(&eye)];
                 session.write(made.viewer, bytemuck::cast_slice(&viewer))?;
-                session.write(made.positions, bytemuck::cast_slice(&shape.positions))?;
-                session.write(made.half_edges, bytemuck::cast_slice(&sides))?;
-                session.write(made.judges, &judges(&shape))?;
+                made.write_shape(session.as_mut(), &shape)?;
                 sessions.push(session);
             }
             let mut least = [Duration::MAX; 2];

@@ -183,7 +183,7 @@ fn link_pictures(c: &mut Criterion) {
                 b.iter(|| linked(&ink));
             });
             group.bench_function(BenchmarkId::new("links and rows", count), |b| {
-                b.iter(|| ranked_sides(&ink.into(), None).expect("loops"));
+                b.iter(|| ranked_sides(&ink.into(), &ink.bits(), None).expect("loops"));
             });
         }
         group.finish();

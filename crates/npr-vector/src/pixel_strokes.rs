@@ -37,13 +37,13 @@ use crate::rank::place::Standing;
 use crate::rank::scan::{compact, exclusive_scan};
 use crate::rank::{RankError, Ranked, walk, wyllie};
 use edge::{Facing, drawn_edges, mark_edges};
-use fragment::{Fragment, draw_nearest, emit_fragments, test_fragments};
+use fragment::{BITS_A_WORD, Fragment, draw_nearest, emit_fragments, test_fragments};
 use npr_core::crease::Creases;
 pub use npr_core::published_path::PublishedPath;
 use npr_core::window::View;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use segment::{Drawn, PixelView, Segment, project_edges};
-use side::{BITS_A_WORD, Ink, InkPicture, PIXELS_A_WORD, Side, link_sides, mark_sides};
+use side::{Ink, InkPicture, PIXELS_A_WORD, Side, link_sides, mark_sides};
 pub use surface::scene_depths;
 
 /// Bytes for each pixel of a picture that [`trace`] takes: what shows, how deep, and the sides.

@@ -3,9 +3,11 @@
 use super::ranking::{RankedLists, Scheme, add_ranking};
 use super::sums::{Compacted, add_compact};
 use super::work::{IndirectArguments, ListWork, add_work};
+use crate::engine::{EngineError, Session};
 use crate::graph::{Graph, ResourceId};
 use crate::passes::vector;
-use npr_vector::mesh_lines::contour::steps::{HalfEdge, Viewer};
+use npr_mesh::half_edge::HalfEdgeMesh;
+use npr_vector::mesh_lines::contour::steps::{HalfEdge, Viewer, half_edges, judges};
 use npr_vector::mesh_lines::graph::CurveNode;
 use npr_vector::rank::Link;
 
@@ -97,5 +99,23 @@ pub fn add_contours(
         node_count: count,
         work,
         lists,
+    }
+}
+
+impl Contours {
+    /// Hands the shape, which stays from view to view, to the engine.
+    ///
+    /// # Errors
+    ///
+    /// Those of the engine.
+    pub fn write_shape(
+        &self,
+        session: &mut dyn Session,
+        shape: &HalfEdgeMesh,
+    ) -> Result<(), EngineError> {
+        session.write(self.positions, bytemuck::cast_slice(&shape.positions))?;
+        session.write(self.corners, bytemuck::cast_slice(&shape.faces))?;
+        session.write(self.half_edges, bytemuck::cast_slice(&half_edges(shape)))?;
+        session.write(self.judges, &judges(shape))
     }
 }

@@ -6,7 +6,7 @@ use super::ranking::{Scheme, ranked};
 use crate::engine::{Engine, EngineError, PassTime, Readings, Session};
 use crate::graph::Graph;
 use npr_mesh::half_edge::HalfEdgeMesh;
-use npr_vector::mesh_lines::contour::steps::{Viewer, half_edges, judges};
+use npr_vector::mesh_lines::contour::steps::Viewer;
 use npr_vector::mesh_lines::contour::{EdgeContours, Eye, usual_room};
 use npr_vector::mesh_lines::graph::{CurveGraph, CurveNode};
 use npr_vector::rank::Ranked;
@@ -162,15 +162,7 @@ impl Room {
             contours,
             capacity,
         };
-        room.hand_over(shape)?;
+        room.contours.write_shape(room.session.as_mut(), shape)?;
         Ok(room)
-    }
-
-    fn hand_over(&mut self, shape: &HalfEdgeMesh) -> Result<(), EngineError> {
-        let (session, into) = (self.session.as_mut(), &self.contours);
-        session.write(into.positions, bytemuck::cast_slice(&shape.positions))?;
-        session.write(into.corners, bytemuck::cast_slice(&shape.faces))?;
-        session.write(into.half_edges, bytemuck::cast_slice(&half_edges(shape)))?;
-        session.write(into.judges, &judges(shape))
     }
 }

@@ -12,7 +12,7 @@ use npr_gpu::graph::Graph;
 use npr_gpu::pass::{Agreement, Pass, Work, append, read};
 use npr_mesh::testing::torus;
 use npr_shaders::Shader;
-use npr_vector::mesh_lines::contour::steps::{Viewer, half_edges, judges};
+use npr_vector::mesh_lines::contour::steps::Viewer;
 
 /// Counts its own invocations, idle ones of the last workgroup included.
 const COUNT: Pass = Pass {
@@ -72,16 +72,11 @@ fn both_engines_cost_the_same() {
     let mut found = Vec::new();
     for engine in engines() {
         let mut session = engine.prepare(graph.clone()).unwrap();
-        let (viewer, sides) = ([Viewer::from(&eyes(1.0)[0])], half_edges(&shape));
-        let inputs = [
-            (made.viewer, bytemuck::cast_slice(&viewer)),
-            (made.positions, bytemuck::cast_slice(&shape.positions)),
-            (made.half_edges, bytemuck::cast_slice(&sides)),
-            (made.judges, &judges(&shape)),
-        ];
-        for (id, words) in inputs {
-            session.write(id, words).unwrap();
-        }
+        let viewer = [Viewer::from(&eyes(1.0)[0])];
+        session
+            .write(made.viewer, bytemuck::cast_slice(&viewer))
+            .unwrap();
+        made.write_shape(session.as_mut(), &shape).unwrap();
         session.run().unwrap();
         let costs = pass_costs(&graph, session.as_mut()).unwrap();
         let names = graph.nodes().iter().map(|node| node.pass.name);

@@ -4,7 +4,7 @@ use crate::contours::engines;
 use crate::lists::{Chains, lists};
 use crate::sample_passes::{DOUBLE, DRAW_LARGEST};
 use crate::shapes::{eyes, shape_from};
-use npr_gpu::curves::contours::add_contours;
+use npr_gpu::curves::contours::{Contours, add_contours};
 use npr_gpu::curves::ranking::add_ranking;
 use npr_gpu::curves::sums::{add_compact, add_scan, add_sum};
 use npr_gpu::curves::work::{IndirectArguments, ListWork, add_work};
@@ -13,7 +13,7 @@ use npr_gpu::engine::Engine;
 use npr_gpu::graph::{Graph, ResourceId};
 use npr_gpu::pass::Format;
 use npr_mesh::testing::{cube, plane, random_soup, torus, uv_sphere};
-use npr_vector::mesh_lines::contour::steps::{Viewer, half_edges, judges};
+use npr_vector::mesh_lines::contour::steps::Viewer;
 use npr_vector::mesh_lines::contour::{EdgeContours, Eye};
 use npr_vector::rank::scan::exclusive_scan;
 use npr_vector::rank::{Link, link, rank_curves};
@@ -205,16 +205,14 @@ fn contours_of(shape: &npr_mesh::half_edge::HalfEdgeMesh, capacity: usize) -> (G
     let made = add_contours(&mut graph, sizes[0], sizes[1], capacity, scheme);
     let rows = made.lists.unwrap().rows;
     let ids = ContourIds {
-        inputs: [made.viewer, made.positions, made.half_edges, made.judges],
-        count: made.node_count,
+        made,
         outputs: [made.nodes, rows.standings, rows.order],
     };
     (graph, ids)
 }
 
 struct ContourIds {
-    inputs: [ResourceId; 4],
-    count: ResourceId,
+    made: Contours,
     outputs: [ResourceId; 3],
 }
 
@@ -232,20 +230,13 @@ fn contours_follow_their_number_in_any_room() {
             let plain = graph.clone().without_sizes();
             let run = |graph: Graph| {
                 let mut session = engine.prepare(graph).unwrap();
-                let [viewer, positions, sides, judging] = ids.inputs;
-                let write = bytemuck::cast_slice::<[f32; 3], u32>;
                 let viewed = [Viewer::from(eye)];
                 session
-                    .write(viewer, bytemuck::cast_slice(&viewed))
+                    .write(ids.made.viewer, bytemuck::cast_slice(&viewed))
                     .unwrap();
-                session.write(positions, write(&shape.positions)).unwrap();
-                let half_edges = half_edges(&shape);
-                session
-                    .write(sides, bytemuck::cast_slice(&half_edges))
-                    .unwrap();
-                session.write(judging, &judges(&shape)).unwrap();
+                ids.made.write_shape(session.as_mut(), &shape).unwrap();
                 session.run().unwrap();
-                assert_eq!(session.read(ids.count).unwrap(), [exact as u32]);
+                assert_eq!(session.read(ids.made.node_count).unwrap(), [exact as u32]);
                 ids.outputs.map(|id| session.read(id).unwrap())
             };
             let (sized, plain) = (run(graph), run(plain));

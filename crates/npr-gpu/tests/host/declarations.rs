@@ -130,6 +130,8 @@ fn check_access(pass: &Pass, slot: &Slot, global: &GlobalVariable, inner: &TypeI
                     access: StorageAccess::LOAD | StorageAccess::STORE,
                 }
         }
+        // No shader declares them.
+        Access::Indices => false,
         Access::Texture(format) | Access::Layered(format) => {
             let is_layered = matches!(slot.access, Access::Layered(_));
             matches!(inner, TypeInner::Image { dim: naga::ImageDimension::D2, arrayed, class }
@@ -178,7 +180,8 @@ fn bindings_are_as_declared() {
             .iter()
             .map(|global| global.name.as_deref().unwrap_or_default())
             .collect();
-        let slots = || pass.slots.iter().filter(|slot| !slot.is_for_twin);
+        let is_bound = |slot: &&Slot| slot.is_bound_for(Features::ALL);
+        let slots = || pass.slots.iter().filter(is_bound);
         let declared: Vec<_> = slots().map(|slot| slot.name).collect();
         assert_eq!(names, declared, "{}", pass.name);
         for (slot, global) in slots().zip(bound) {
@@ -333,6 +336,30 @@ fn no_pass_needs_more_than_every_device_has() {
             pass.name
         );
     }
+}
+
+#[test]
+fn indices_are_what_their_draw_counts() {
+    let mut count = 0;
+    for pass in ALL {
+        for slot in pass
+            .slots
+            .iter()
+            .filter(|slot| slot.access == Access::Indices)
+        {
+            count += 1;
+            let counted = pass.slots[pass.counted_slot()].name;
+            assert!(!slot.is_bound_for(Features::ALL) && slot.is_read_for(Features::ALL));
+            assert_eq!((counted, pass.vertices()), (slot.name, 1), "{}", pass.name);
+            assert_eq!(
+                pass.slots.last().map(|slot| slot.name),
+                Some(slot.name),
+                "{}",
+                pass.name
+            );
+        }
+    }
+    assert!(count > 0);
 }
 
 #[test]

@@ -1,11 +1,13 @@
 //! Segments to pixels: the twins of `vector.emit_fragments`, `vector.test_fragments` and `vector.draw_nearest`.
 
 use super::segment::{PixelView, Segment, reciprocal};
-use super::side::BITS_A_WORD;
 use bytemuck::{Pod, Zeroable};
 use npr_core::geometry::NONE;
 use npr_core::gpu_layout;
 use rayon::prelude::*;
+
+/// Pixels whose ink shares a word: a bit each, that of the first lowest.
+pub const BITS_A_WORD: usize = 32;
 
 /// A step of a segment along its longer axis.
 #[repr(C)]

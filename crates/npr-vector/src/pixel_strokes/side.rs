@@ -3,7 +3,7 @@
 //! A side lies between a pixel with ink and one without. Sides run clockwise around ink as one sees it: along the upper
 //! side to the right, down the right one, back along the lower, and up the left one.
 
-use super::fragment::holder_of;
+use super::fragment::{BITS_A_WORD, holder_of};
 use super::planar::Planar;
 use super::segment::Segment;
 use crate::rank::Link;
@@ -13,9 +13,6 @@ use rayon::prelude::*;
 
 /// Pixels whose sides share a word of masks: four bits each, those of the first lowest.
 pub const PIXELS_A_WORD: usize = 8;
-
-/// Pixels whose ink shares a word: a bit each, that of the first lowest.
-pub const BITS_A_WORD: usize = 32;
 
 /// Steps in the four directions: right, down, left, up.
 const AHEAD: [[i64; 2]; 4] = [[1, 0], [0, 1], [-1, 0], [0, -1]];
