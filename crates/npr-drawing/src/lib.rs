@@ -4,7 +4,7 @@
 //! [`artwork`] decides what a file shows of it, in which layers, and on which page; [`svg`], [`pdf`] and [`drawing`]
 //! write that, [`json`] the strokes themselves. On the way [`fit`] makes cubic curves of points, [`outline`] the
 //! outline of a stroke whose width varies, and [`plot`] an order with short ways in the air. [`fill`] makes closed
-//! regions of what lines enclose, [`lettering`] outlines of words, and [`centreline`] files of centre lines.
+//! regions of what lines enclose, [`taper`] thins strokes towards their ends, [`lettering`] makes outlines of words, and [`centreline`] files of centre lines.
 //!
 //! ```
 //! use npr_drawing::svg::{SvgOptions, write_svg};
@@ -41,3 +41,4 @@ mod page;
 pub mod pdf;
 pub mod plot;
 pub mod svg;
+pub mod taper;

@@ -73,6 +73,7 @@ mod smoke;
 mod stated;
 mod style;
 mod style_file;
+mod taper;
 mod width;
 
 pub use antialias::Antialias;
@@ -117,6 +118,7 @@ pub use smoke::{
 };
 pub use stated::Stated;
 pub use style::Style;
+pub use taper::{Taper, TaperEnds};
 pub use width::{Channel, ControlPoint, Width, WidthSource};
 
 pub use npr_core::line_source::LineSource;

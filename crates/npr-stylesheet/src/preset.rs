@@ -33,6 +33,12 @@ const PRESETS: &[Preset] = &[
         text: include_str!("../presets/ink.toml"),
     },
     Preset {
+        name: "g-pen",
+        version: 1,
+        title: "Nib lines that swell and run out to points, on white paper",
+        text: include_str!("../presets/g-pen.toml"),
+    },
+    Preset {
         name: "technical",
         version: 1,
         title: "Thin even lines on plain white parts, with every crease",

@@ -81,6 +81,11 @@ pub const PLACES: &[(&str, &str, &str)] = &[
         "where the ball cuts the box the mask finds a contour first",
     ),
     (
+        "line.width.taper.ends",
+        "otrace",
+        "its strokes break off before they meet",
+    ),
+    (
         "detect.rescale_thresholds",
         "by shape",
         "edges lie inside the mask with either threshold",
@@ -145,6 +150,34 @@ const ENABLING: &[(&str, &[&str], &str)] = &[
         "ink.hatch.cross_at",
         &["ink.hatch.pattern='cross'"],
         "it is about the second layer",
+    ),
+    (
+        "line.width.taper",
+        &[
+            "line.width.taper.start='12px'",
+            "line.width.taper.end='12px'",
+        ],
+        "tapers without length are none",
+    ),
+    (
+        "line.width.taper.start",
+        &["line.width.taper.ends='all'"],
+        "lines of the scene end on each other",
+    ),
+    (
+        "line.width.taper.end",
+        &["line.width.taper.ends='all'"],
+        "lines of the scene end on each other",
+    ),
+    (
+        "line.width.taper.share",
+        &["line.width.taper.ends='all'"],
+        "lines of the scene end on each other",
+    ),
+    (
+        "line.width.taper.tip",
+        &["line.width.taper.ends='all'"],
+        "lines of the scene end on each other",
     ),
     (
         "detect.depth",

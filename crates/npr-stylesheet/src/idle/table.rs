@@ -354,6 +354,9 @@ pub(super) const ENTRIES: &[Entry] = &[
         ],
         |c| !c.is_drawn_by(&[Shape, Okuya, Hull, FilterHull, Edges, Curves, Potrace]),
     ),
+    of_methods(&["line.width.short", "line.width.taper"], |c| {
+        !c.is_drawn_by(&[Curves, Potrace])
+    }),
     of_methods(&["detect.scale"], |c| {
         !c.is_drawn_by(&[Shape, Okuya, Filter, FilterHull, Edges])
     }),
@@ -378,6 +381,15 @@ pub(super) const ENTRIES: &[Entry] = &[
         &["line.width.gain"],
         |c| !c.width_is_of(&[WidthSource::Curvature, WidthSource::ProjectedCurvature]),
         "line.width.source is not a curvature",
+    ),
+    entry(
+        &[
+            "line.width.taper.share",
+            "line.width.taper.tip",
+            "line.width.taper.ends",
+        ],
+        |c| !c.style.line.width.taper.is_on(),
+        "line.width.taper.start and end are 0",
     ),
     entry(
         &["line.width.channel"],
