@@ -1,16 +1,16 @@
-//! A graphics adapter in words and numbers.
+//! The report about a graphics adapter.
 
 use crate::message::plain;
 use serde::Serialize;
 
-/// A graphics adapter, for people who report a problem.
+/// Name, kind and limits of a graphics adapter, as `npr doctor` reports them.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct AdapterReport {
     /// Name of the device.
     pub name: String,
     /// Discrete, integrated, virtual, unknown or software.
     pub kind: &'static str,
-    /// The interface through which it is reached.
+    /// The graphics API through which it is reached.
     pub backend: &'static str,
     /// Name and version of the driver.
     pub driver: String,
@@ -18,7 +18,7 @@ pub struct AdapterReport {
     pub max_image_side: u32,
     /// Largest buffer that a pass can bind, in bytes.
     pub max_binding_bytes: u64,
-    /// Whether it can time passes.
+    /// Whether it has a clock that times passes.
     pub has_clock: bool,
 }
 

@@ -1,4 +1,4 @@
-//! What the user said. Nothing here touches a file or a device.
+//! The arguments of the command line, as clap parses them.
 
 mod byte_count;
 mod cache;
@@ -103,7 +103,7 @@ pub enum Command {
 }
 
 impl Command {
-    /// Whether it makes drawings, on all threads; other commands need none besides their own.
+    /// Whether the command draws, which uses all threads. Other commands need only their own thread.
     pub fn draws(&self) -> bool {
         matches!(
             self,
@@ -111,7 +111,7 @@ impl Command {
         )
     }
 
-    /// Whether doing it may open a graphics device.
+    /// Whether the command may open a graphics device.
     pub fn may_open_device(&self) -> bool {
         let backend = match self {
             Self::Render(arguments) => arguments.0.drawing.backend,

@@ -8,24 +8,24 @@ use npr_render::{Frame, RenderError, Renderer};
 use png::ColorType;
 use std::io::{self, BufWriter, Write};
 
-/// How a try to draw and write a picture went.
+/// The result of one attempt to draw and write a picture.
 enum Try {
-    /// The picture is in its place.
+    /// The picture is written. The frame holds its times and notices, but no pixels.
     Written(Frame),
-    /// A picture without alpha turned out to need it.
+    /// The picture was drawn without alpha, but has pixels that are not opaque.
     SeesThrough,
     /// The file could not be written.
     Failed(Fault),
 }
 
-/// Draws a picture of `size` into its file, and never holds more of it than a band.
+/// Draws a picture of `size` pixels into its file, and holds at most one band of its pixels in memory.
 ///
-/// Without `keep_alpha` it is taken for opaque, and drawn again where it turns out not to be. The inner result is
-/// that of writing.
+/// Without `keep_alpha` the picture is first drawn without alpha, and drawn again with it where a pixel turns out not
+/// to be opaque. The inner result is that of writing the file.
 ///
 /// # Errors
 ///
-/// [`RenderError`] where drawing fails: there is no file then, and another engine may try.
+/// [`RenderError`] where drawing fails. No file is left then, and another engine may try.
 pub fn draw_into(
     output: &Output,
     renderer: &mut Renderer<'_>,
@@ -66,7 +66,7 @@ fn try_with(
                 }
                 !sees_through && kept.is_ok()
             });
-            // Keep nothing that is not whole.
+            // Fail for a picture that is not whole, so that no file of it stays.
             let is_whole = bands.is_ok() && !sees_through;
             drawn = Some(bands);
             match is_whole {
@@ -84,7 +84,8 @@ fn try_with(
     })
 }
 
-/// Writes what `fill` writes, if it is whole: a reader of standard output cannot be told to forget its beginning.
+/// Writes the bytes of `fill`, but nothing at all where `fill` fails. For standard output they are collected first,
+/// because bytes that were sent cannot be taken back.
 fn whole(
     output: &Output,
     fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
@@ -140,7 +141,7 @@ mod tests {
             in_bands: true,
             ..RendererOptions::new(SIZE)
         };
-        // Paper, glass, and glass that was taken for paper.
+        // An opaque picture, a transparent one, and a transparent one that is first drawn without alpha.
         for (background, keep_alpha) in [
             ("white", false),
             ("transparent", true),

@@ -1,4 +1,4 @@
-//! What is wrong with an image file, in plain words.
+//! The messages about image files that cannot be decoded.
 
 use crate::fault::{Exit, Fault};
 use image::error::{LimitErrorKind, UnsupportedErrorKind};
@@ -6,13 +6,15 @@ use image::{ImageError, ImageFormat};
 use std::error::Error;
 use std::io::ErrorKind;
 
-/// How decoders begin where they name the sort of a PNG chunk, followed by what they know of it in braces.
+/// How decoders print the type of a PNG chunk: after this text come the name and the properties of the type, up to a
+/// closing brace.
 const CHUNK: &str = "ChunkType { type: ";
 
-/// Length of the longest word in mixed case that may be a name in a file, such as WebP or tRNS.
+/// Longest word in mixed case, in characters, that counts as a name from a file format, such as WebP or tRNS. A longer
+/// one counts as the name of a Rust type.
 const NAME_LENGTH: usize = 6;
 
-/// The fault of an image file that a decoder refused; decoding may take `most_bytes`.
+/// The fault for an image file that a decoder refused. `most_bytes` is the memory that decoding was allowed.
 pub fn broken(error: &ImageError, format: Option<ImageFormat>, most_bytes: u64) -> Fault {
     let name = format.map_or("image", name_of);
     let damage = |text: String| match plain(&text) {
@@ -48,7 +50,7 @@ pub fn broken(error: &ImageError, format: Option<ImageFormat>, most_bytes: u64) 
     Fault::new(Exit::Input, message)
 }
 
-/// A file of a format stopped its decoder.
+/// The fault for an image file whose decoder panicked.
 pub fn stopped(format: Option<ImageFormat>) -> Fault {
     let name = format.map_or("image", name_of);
     Fault::new(Exit::Input, format!("the {name} data are broken"))
@@ -66,7 +68,7 @@ fn name_of(format: ImageFormat) -> &'static str {
     }
 }
 
-/// The sentences of a decoder that hold words for people only, on one line; none where there are none.
+/// The sentences of a decoder's message that users can read, joined on one line; `None` where there are none.
 fn plain(text: &str) -> Option<String> {
     let text = without_chunk_types(text);
     let words: Vec<&str> = text.split_whitespace().collect();
@@ -79,7 +81,7 @@ fn plain(text: &str) -> Option<String> {
     (!kept.is_empty()).then(|| kept.join(", "))
 }
 
-/// The text with the names of chunk types alone in place of all that is known of them.
+/// The text with every printed chunk type reduced to its name.
 fn without_chunk_types(text: &str) -> String {
     let mut pieces = text.split(CHUNK);
     let mut whole = pieces.next().unwrap_or_default().to_owned();
@@ -95,7 +97,7 @@ fn without_chunk_types(text: &str) -> String {
     whole
 }
 
-/// Whether a sentence holds no values as programs print them, and no names of types.
+/// Whether a sentence is free of debug output and of names of Rust types.
 fn is_plain(sentence: &str) -> bool {
     let is_type = |word: &str| {
         let letters: Vec<char> = word.chars().collect();
@@ -110,7 +112,7 @@ fn is_plain(sentence: &str) -> bool {
         && !sentence.split_whitespace().any(is_type)
 }
 
-/// The sentence as it stands behind a colon: a word such as CRC keeps its capitals.
+/// The sentence with a small first letter, to follow a colon. A word such as CRC keeps its capitals.
 fn begun_small(sentence: &str) -> String {
     let mut letters = sentence.chars();
     match (letters.next(), letters.next()) {

@@ -1,4 +1,4 @@
-//! Pictures in few colours, for tracing.
+//! Reduces pictures to few colours, for tracing.
 
 use crate::fault::{Exit, Fault};
 use npr_trace::IndexPicture;
@@ -6,11 +6,11 @@ use palette::Srgb;
 use quantette::{ImageRef, PaletteSize, Pipeline};
 use std::collections::BTreeMap;
 
-/// The picture in at most so many colours: its own where it has no more, else those found by the method of [Wu 1991]
-/// in OKLab, without dither.
+/// The picture in at most `most` colours. It keeps its own colours where there are no more; else the method of
+/// [Wu 1991] chooses colours in OKLab, without dither.
 ///
-/// `rgba` is straight. A pixel less than half opaque is transparent; the others count as opaque. 16 bytes a pixel,
-/// O(pixels).
+/// `rgba` has straight alpha. A pixel less than half opaque becomes transparent; the others count as opaque. 16 bytes
+/// a pixel, O(pixels).
 pub fn reduce(size: [u32; 2], rgba: &[u8], most: u16) -> Result<IndexPicture, Fault> {
     let [width, height] = size;
     let (pixels, _) = rgba.as_chunks::<4>();
@@ -30,15 +30,15 @@ pub fn reduce(size: [u32; 2], rgba: &[u8], most: u16) -> Result<IndexPicture, Fa
     picture.map_err(|error| Fault::new(Exit::Input, error))
 }
 
-/// The colour of a pixel that is painted.
+/// The colour of a pixel that is at least half opaque; `None` for others.
 fn opaque_color(&[r, g, b, a]: &[u8; 4]) -> Option<[u8; 3]> {
     (a >= 128).then_some([r, g, b])
 }
 
-/// A palette, and for every pixel its number there.
+/// A palette, and for every pixel the index of its colour there.
 type Numbered = (Vec<[u8; 3]>, Vec<u8>);
 
-/// The colours there are, sorted; nothing where they are more than `most`, up to 256.
+/// The palette of all colours that occur, sorted; `None` where there are more than `most`, which is at most 256.
 fn own_colors(pixels: &[[u8; 3]], most: usize) -> Option<Numbered> {
     let mut numbers = BTreeMap::new();
     for run in pixels.chunk_by(|a, b| a == b) {
@@ -55,7 +55,8 @@ fn own_colors(pixels: &[[u8; 3]], most: usize) -> Option<Numbered> {
     Some((numbers.into_keys().collect(), numbered))
 }
 
-/// Colours found by the method of [Wu 1991], and for every pixel that of its part of the colour space.
+/// A palette of at most `most` colours by the method of [Wu 1991]. A pixel gets the colour of its part of the colour
+/// space.
 fn found_colors(pixels: &[[u8; 3]], most: u16) -> Result<Numbered, Fault> {
     let broken = |error: &dyn std::fmt::Display| Fault::new(Exit::Failed, error);
     let size = PaletteSize::try_from(most).map_err(|error| broken(&error))?;

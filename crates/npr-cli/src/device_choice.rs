@@ -5,6 +5,6 @@
 pub enum DeviceChoice {
     /// Hardware only: software devices are slower than the processor engine.
     Hardware,
-    /// Any, hardware first.
+    /// Any device; hardware is preferred.
     Any,
 }

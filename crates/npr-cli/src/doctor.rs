@@ -1,4 +1,4 @@
-//! `npr doctor`: what this machine can do.
+//! `npr doctor`: reports what this machine can do.
 
 use crate::adapter_report::AdapterReport;
 use crate::fault::{Exit, Fault};
@@ -8,7 +8,7 @@ use crate::output;
 use serde::Serialize;
 use std::fmt::Write;
 
-/// What this machine can do.
+/// The report about this machine.
 #[derive(Debug, Clone, Serialize)]
 struct Diagnosis {
     version: &'static str,
@@ -16,13 +16,13 @@ struct Diagnosis {
     arch: &'static str,
     threads: usize,
     adapters: Vec<AdapterReport>,
-    /// What `--backend auto` draws on.
+    /// The engine that `--backend auto` chooses.
     auto: String,
-    /// Why.
+    /// The reason for that choice.
     because: &'static str,
 }
 
-/// Prints what this machine can do. A machine without graphics is no fault.
+/// Prints the report about this machine. A machine without graphics adapters is no error.
 pub fn doctor(as_json: bool) -> Result<(), Fault> {
     let diagnosis = Diagnosis::of(hardware::adapters());
     let text = if as_json {
@@ -71,7 +71,7 @@ impl Diagnosis {
     }
 }
 
-/// What the automatic choice draws on, and why. Adapters come best first.
+/// The engine that `--backend auto` chooses, and the reason. `adapters` are sorted, the best first.
 fn choice(adapters: &[AdapterReport], threads: usize) -> (String, &'static str) {
     let processor = format!("the processor, {threads} threads");
     match adapters.first() {

@@ -1,11 +1,11 @@
-//! A style as it comes out, printed.
+//! `--dump-style`: prints the resolved style.
 
 use crate::arguments::{DrawingArguments, LookArguments};
 use crate::fault::{Exit, Fault};
 use crate::look::Look;
 use crate::output;
 
-/// Prints a style as it comes out.
+/// Prints the style with all overrides applied, every value spelled out.
 pub fn dump_style(args: &LookArguments, drawing: &DrawingArguments) -> Result<(), Fault> {
     let look = Look::resolve(args, drawing.allow_external.as_deref())?.with_smoke(&drawing.volumes);
     let text = look

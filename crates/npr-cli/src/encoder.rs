@@ -1,4 +1,4 @@
-//! From a frame to the bytes of a picture file.
+//! Encodes frames as PNG files.
 
 use crate::fault::{Exit, Fault};
 use png::{BitDepth, ColorType, Encoder, SrgbRenderingIntent};
@@ -22,8 +22,8 @@ pub fn png(size: [u32; 2], rgba: &[u8], keep_alpha: bool) -> Result<Vec<u8>, Fau
     Ok(file)
 }
 
-/// Writes a PNG file whose rows `fill` hands over from the top, some whole ones at a time, so that neither picture
-/// nor file has to fit into memory. The same bytes as [`png`], whatever the pieces.
+/// Writes a PNG file from RGBA rows that `fill` hands over from the top, one or more whole rows at a time. Neither the
+/// picture nor the file has to fit into memory. The bytes equal those of [`png`], however the rows are grouped.
 pub fn encode(
     size: [u32; 2],
     color: ColorType,

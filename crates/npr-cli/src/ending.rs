@@ -1,8 +1,8 @@
-//! Endings of file names.
+//! Extensions of file names.
 
 use std::path::Path;
 
-/// Whether the name of a file ends in a dot and `ending`, in any case.
+/// Whether the extension of `path` is `ending`, in upper or lower case.
 pub fn has_ending(path: &Path, ending: &str) -> bool {
     path.extension()
         .is_some_and(|there| there.eq_ignore_ascii_case(ending))

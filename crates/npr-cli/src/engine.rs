@@ -1,4 +1,4 @@
-//! Which engine draws, and what happens when it fails.
+//! The choice of the engine that draws, and what happens when it fails.
 
 use crate::arguments::{Backend, DrawingArguments};
 use crate::device_choice::DeviceChoice;
@@ -19,28 +19,29 @@ use std::thread::{self, JoinHandle};
 pub struct Drawn<T> {
     /// What was drawn.
     pub picture: T,
-    /// The engine in one line.
+    /// Description of the engine, in one line.
     pub engine: String,
 }
 
-/// Draws on an engine.
+/// A function that draws a picture on an engine.
 type Picture<'a, T> = &'a dyn Fn(&dyn Engine) -> Result<T, RenderError>;
 
-/// Opens a graphics device.
+/// A function that opens a graphics device.
 type Open<'a> = &'a dyn Fn() -> Result<Box<dyn Engine>, EngineError>;
 
-/// A device, or why there is none.
+/// An opened device, or the reason why there is none.
 type Opened = Result<Box<dyn Engine + Send>, EngineError>;
 
-/// The engine that the user asked for. A device opens beside other work: drivers take some tens of milliseconds.
+/// The engine that the user asked for. A device is opened on a thread of its own beside other work, because drivers
+/// take some tens of milliseconds.
 pub struct EngineChoice<'a> {
     arguments: &'a DrawingArguments,
-    /// The device that is being opened; taken by the first that wants one.
+    /// The thread that opens a device. The first caller that needs a device takes it.
     opening: Cell<Option<JoinHandle<Opened>>>,
 }
 
 impl<'a> EngineChoice<'a> {
-    /// Begins to open the device that `arguments` ask for, where they ask for one.
+    /// Starts to open a device, where `arguments` ask for one.
     pub fn begin(arguments: &'a DrawingArguments) -> Self {
         let choice = Self {
             arguments,
@@ -49,13 +50,13 @@ impl<'a> EngineChoice<'a> {
         if let Some(devices) = choice.devices() {
             let times_passes = choice.times_passes();
             let open = move || hardware::open(devices, times_passes);
-            // Where no thread can be had, the device opens when it is wanted.
+            // Where no thread can be started, the device is opened when it is needed.
             choice.opening.set(thread::Builder::new().spawn(open).ok());
         }
         choice
     }
 
-    /// The devices that may draw.
+    /// The devices that may draw; `None` where the processor draws.
     fn devices(&self) -> Option<DeviceChoice> {
         match self.arguments.backend {
             Backend::Cpu => None,
@@ -68,7 +69,7 @@ impl<'a> EngineChoice<'a> {
         self.arguments.timings.is_some()
     }
 
-    /// The device that was begun, once; later ones are opened anew.
+    /// The device that [`Self::begin`] started to open. Every later call opens a new one.
     fn open(&self, devices: DeviceChoice) -> Result<Box<dyn Engine>, EngineError> {
         let opened = match self.opening.take() {
             Some(opening) => joined(opening),
@@ -79,8 +80,8 @@ impl<'a> EngineChoice<'a> {
 
     /// Draws a picture on the engine.
     ///
-    /// A device that is lost is opened once more. Where it fails again, or fails otherwise, the processor takes over if
-    /// the choice is automatic, after a word to `warn`.
+    /// A lost device is opened once more. Where it fails again, or for another reason, the processor draws instead if
+    /// the backend is `auto`; `warn` then gets a message, unless there is no device at all.
     fn draw<T>(&self, picture: Picture<'_, T>, warn: &dyn Fn(&str)) -> Result<Drawn<T>, Fault> {
         let drawn = match self.devices() {
             None => draw_on(&Processor, picture),
@@ -95,7 +96,7 @@ impl<'a> EngineChoice<'a> {
         drawn.map_err(Fault::from)
     }
 
-    /// Draws a picture as a step of the run; warnings follow when the step is over.
+    /// Draws a picture as a step of the run. Warnings are printed when the step is over.
     pub fn draw_as_step<T>(
         &self,
         picture: Picture<'_, T>,
@@ -115,18 +116,19 @@ impl<'a> EngineChoice<'a> {
 }
 
 impl Drop for EngineChoice<'_> {
-    /// Waits for a device that nobody wanted: a program must not end while a driver starts.
+    /// Waits for a device that nobody used: a program must not end while a driver starts.
     fn drop(&mut self) {
         drop(self.opening.take().map(JoinHandle::join));
     }
 }
 
-/// What a thread opened; its panic goes on here.
+/// The result of a thread that opens a device. A panic of the thread is passed on.
 fn joined(opening: JoinHandle<Opened>) -> Opened {
     opening.join().unwrap_or_else(|panic| resume_unwind(panic))
 }
 
-/// Draws a picture on a device, or else on the processor, after a word to `warn` where there is a device.
+/// Draws a picture on a device, or on the processor where that fails. `warn` gets a message where there is a device
+/// that fails.
 pub fn draw_somewhere<T>(
     open: Open<'_>,
     picture: Picture<'_, T>,
@@ -142,7 +144,7 @@ pub fn draw_somewhere<T>(
     }
 }
 
-/// Draws a picture on a device, which is opened once more where it is lost.
+/// Draws a picture on a device. A lost device is opened once more.
 pub fn draw_on_device<T>(open: Open<'_>, picture: Picture<'_, T>) -> Result<Drawn<T>, RenderError> {
     let draw = || draw_on(open()?.as_ref(), picture);
     match draw() {
@@ -189,7 +191,7 @@ mod tests {
         })
     }
 
-    /// A picture that fails with `error` some times, and the number of tries so far.
+    /// A picture that fails with `error` the first `times` times. `tries` counts the attempts.
     fn failing<'a>(
         times: u32,
         tries: &'a Cell<u32>,
@@ -260,7 +262,7 @@ mod tests {
             },
         ];
         for error in errors {
-            // Demanded, it ends the run with one sentence.
+            // With `--backend gpu` the failure ends the run with one sentence.
             let fails = || RenderError::Engine(error.clone());
             let tries = Cell::new(0);
             let demanded = draw_on_device(&device, &failing(9, &tries, &fails));
@@ -272,7 +274,7 @@ mod tests {
             );
             assert_eq!(fault.message.lines().count(), 1);
 
-            // Else the processor draws.
+            // With `--backend auto` the processor draws.
             let on_processor = |engine: &dyn Engine| match engine.runs_twins() {
                 true => Ok("drawn"),
                 false => Err(fails()),
@@ -283,7 +285,7 @@ mod tests {
         }
     }
 
-    /// A device that a picture fails on.
+    /// A device on which every picture fails.
     struct Unfit;
 
     impl Engine for Unfit {

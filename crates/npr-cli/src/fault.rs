@@ -1,10 +1,10 @@
-//! Why a run ends without its result.
+//! The errors that end a run, with their exit codes.
 
 use npr_scene::{ResourceError, SceneError};
 use std::fmt;
 use std::io;
 
-/// How a run ends, as the shell sees it.
+/// The kind of an error, which decides the exit code.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Exit {
     /// Files could not be read or written.
@@ -20,7 +20,7 @@ pub enum Exit {
 }
 
 impl Exit {
-    /// The number of the exit code.
+    /// The exit code of the process.
     pub fn code(self) -> u8 {
         match self {
             Self::Failed => 1,
@@ -32,12 +32,12 @@ impl Exit {
     }
 }
 
-/// Why a run ends without its result: how it exits, and one line about it.
+/// An error that ends a run: its kind, and a message of one line.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Fault {
-    /// How the run ends.
+    /// The kind of the error.
     pub exit: Exit,
-    /// Lower case, without a full stop, outermost matter first.
+    /// The message in lower case without a full stop, the outermost context first.
     pub message: String,
 }
 
@@ -48,7 +48,7 @@ impl Fault {
         Self { exit, message }
     }
 
-    /// The same fault, with what was being done before it: `doing: message`.
+    /// The fault with its context in front of the message: `doing: message`.
     pub fn while_doing(self, doing: impl fmt::Display) -> Self {
         Self::new(self.exit, format!("{doing}: {}", self.message))
     }
@@ -71,7 +71,7 @@ impl From<SceneError> for Fault {
     }
 }
 
-/// A file that a style names was not read.
+/// The fault for a file that a style names and that cannot be read.
 impl From<ResourceError> for Fault {
     fn from(error: ResourceError) -> Self {
         let exit = match error {
@@ -83,7 +83,7 @@ impl From<ResourceError> for Fault {
     }
 }
 
-/// The words of an error up to the number that the system gives it.
+/// The text of an error without the error number of the system.
 fn without_number(error: impl fmt::Display) -> String {
     let mut text = error.to_string();
     if let Some(start) = text.rfind(" (os error ") {

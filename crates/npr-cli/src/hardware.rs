@@ -1,11 +1,12 @@
-//! Graphics devices.
+//! Opens and lists graphics devices.
 
 use crate::adapter_report::AdapterReport;
 use crate::device_choice::DeviceChoice;
 use npr_gpu::device::{self, AdapterChoice, AdapterKind, AdapterSummary, Device};
 use npr_gpu::engine::{Engine, EngineError};
 
-/// The best device that `choice` admits; with `times_passes`, one whose times of passes can be believed.
+/// Opens the best device that `choice` admits. With `times_passes`, the device measures the times of passes reliably,
+/// which may make frames slower.
 pub fn open(
     choice: DeviceChoice,
     times_passes: bool,

@@ -1,4 +1,4 @@
-//! Options that cannot act beside the others, each with the reason.
+//! The warnings about options that have no effect, each with the reason.
 
 use crate::arguments::{
     HiddenLines, LineFormat, LinesArguments, PathForm, SmokeArguments, Switch, TraceArguments,
@@ -10,15 +10,15 @@ use npr_render::LineSource;
 use npr_stylesheet::{Facts, SmokeParticles};
 use npr_trace::TraceOptions;
 
-/// An option that cannot act where something is so.
+/// An option, and a condition under which it has no effect.
 struct Entry<T> {
-    /// As it is written.
+    /// The option as it is typed, such as `--seed`.
     option: &'static str,
-    /// Whether the user asked for something by it.
+    /// Whether the user gave the option; where it has a default, whether the value differs from it.
     is_said: fn(&T) -> bool,
-    /// Whether that changes nothing.
+    /// Whether the option has no effect.
     is_idle: fn(&T) -> bool,
-    /// What is said.
+    /// The reason, as the warning states it.
     why: &'static str,
 }
 
@@ -36,7 +36,7 @@ const fn entry<T>(
     }
 }
 
-/// What to tell the user of options that cannot act.
+/// The warnings about options that have no effect, at most one for each option.
 fn reported<T>(entries: &[Entry<T>], case: &T) -> Vec<String> {
     let idle = entries
         .iter()
@@ -52,18 +52,18 @@ fn reported<T>(entries: &[Entry<T>], case: &T) -> Vec<String> {
         .collect()
 }
 
-/// What volumes are drawn, with what was said about them.
+/// The facts that decide which volume options have an effect.
 struct Volumes<'a> {
     args: &'a VolumeArguments,
-    /// Which spheres stand for them.
+    /// The kind of spheres that stand for smoke.
     particles: SmokeParticles,
-    /// Whether there are any.
+    /// Whether there is any smoke.
     is_any: bool,
-    /// Whether any comes from a file.
+    /// Whether any smoke comes from a file.
     is_of_file: bool,
 }
 
-/// An option that is about smoke.
+/// The entry of an option that needs smoke.
 const fn of_smoke_alone<'a>(
     option: &'static str,
     is_said: fn(&Volumes<'a>) -> bool,
@@ -71,7 +71,7 @@ const fn of_smoke_alone<'a>(
     entry(option, is_said, |c| !c.is_any, "the scene has no smoke")
 }
 
-/// An option that is about smoke from files.
+/// The entry of an option that needs smoke from a file.
 const fn of_files_alone<'a>(
     option: &'static str,
     is_said: fn(&Volumes<'a>) -> bool,
@@ -80,7 +80,7 @@ const fn of_files_alone<'a>(
     entry(option, is_said, |c| !c.is_of_file, why)
 }
 
-/// Options of volumes that cannot act.
+/// The conditions under which volume options have no effect.
 fn volume_entries<'a>() -> Vec<Entry<Volumes<'a>>> {
     vec![
         of_smoke_alone("--spheres", |c| c.args.spheres.is_some()),
@@ -113,7 +113,7 @@ fn volume_entries<'a>() -> Vec<Entry<Volumes<'a>>> {
     ]
 }
 
-/// What to tell of options about volumes, where the scene itself is `own`, if it is a volume.
+/// The warnings about volume options that have no effect. `own` is the scene itself, where it is a volume.
 pub fn of_volumes(order: &Order<'_>, own: Option<&VolumeSource>) -> Vec<String> {
     let args = order.args;
     let named: Vec<VolumeSource> = args
@@ -134,7 +134,7 @@ pub fn of_volumes(order: &Order<'_>, own: Option<&VolumeSource>) -> Vec<String> 
     reported(&volume_entries(), &case)
 }
 
-/// A drawing of lines.
+/// The facts that decide which options of `npr lines` have an effect.
 struct Lines<'a> {
     args: &'a LinesArguments,
     format: LineFormat,
@@ -147,7 +147,7 @@ impl Lines<'_> {
     }
 }
 
-/// Options of drawings of lines that cannot act.
+/// The conditions under which options of `npr lines` have no effect.
 fn line_entries<'a>() -> Vec<Entry<Lines<'a>>> {
     vec![
         entry(
@@ -189,7 +189,7 @@ fn line_entries<'a>() -> Vec<Entry<Lines<'a>>> {
     ]
 }
 
-/// What to tell of options of a drawing of lines.
+/// The warnings about options of `npr lines` that have no effect.
 pub fn of_lines(job: &LineJob<'_>, facts: Facts) -> Vec<String> {
     let case = Lines {
         args: job.args,
@@ -199,14 +199,14 @@ pub fn of_lines(job: &LineJob<'_>, facts: Facts) -> Vec<String> {
     reported(&line_entries(), &case)
 }
 
-/// Pictures of smoke, and how many there are.
+/// The facts that decide which options of `npr smoke` have an effect; `count` is the number of pictures.
 struct Smoke<'a> {
     args: &'a SmokeArguments,
     source: &'a VolumeSource,
     count: usize,
 }
 
-/// Options of pictures of smoke that cannot act.
+/// The conditions under which options of `npr smoke` have no effect.
 fn smoke_entries<'a>() -> Vec<Entry<Smoke<'a>>> {
     vec![
         entry(
@@ -224,7 +224,7 @@ fn smoke_entries<'a>() -> Vec<Entry<Smoke<'a>>> {
     ]
 }
 
-/// What to tell of options of `count` pictures of smoke.
+/// The warnings about options of `npr smoke` that have no effect, where it draws `count` pictures.
 pub fn of_smoke(args: &SmokeArguments, source: &VolumeSource, count: usize) -> Vec<String> {
     reported(
         &smoke_entries(),
@@ -236,7 +236,7 @@ pub fn of_smoke(args: &SmokeArguments, source: &VolumeSource, count: usize) -> V
     )
 }
 
-/// An option that is about the outlines of ink.
+/// The entry of an option that acts on outlines of ink only, not on centre lines.
 const fn of_outlines_alone(
     option: &'static str,
     is_said: fn(&TraceArguments) -> bool,
@@ -245,7 +245,7 @@ const fn of_outlines_alone(
     entry(option, is_said, |c| c.form.centreline, why)
 }
 
-/// Whether the user asked for joined curves to stray otherwise than usual.
+/// Whether `--opttolerance` differs from its default.
 fn is_tolerance_said(args: &TraceArguments) -> bool {
     Some(args.method.opttolerance) != TraceOptions::default().join_tolerance
 }
@@ -267,7 +267,7 @@ const TRACE: &[Entry<TraceArguments>] = &[
     ),
 ];
 
-/// What to tell of options of a tracing.
+/// The warnings about options of `npr trace` that have no effect.
 pub fn of_trace(args: &TraceArguments) -> Vec<String> {
     reported(TRACE, args)
 }

@@ -1,4 +1,4 @@
-//! `npr info`: what is in a file.
+//! `npr info`: reports the contents of a file.
 
 use crate::arguments::InfoArguments;
 use crate::fault::{Exit, Fault};

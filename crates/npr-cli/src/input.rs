@@ -1,4 +1,4 @@
-//! Files that are read whole.
+//! Reads whole files and standard input, up to a limit.
 
 use crate::fault::{Exit, Fault};
 use crate::message::quoted;
@@ -21,7 +21,7 @@ fn read_regular(path: &Path, limit_bytes: u64) -> Result<Vec<u8>, Fault> {
     read_limited(file, limit_bytes)
 }
 
-/// The regular file at `path`, and its bytes.
+/// Opens the regular file at `path`, and gives its length in bytes.
 pub fn regular_file(path: &Path) -> Result<(File, u64), Fault> {
     // Opening a pipe would wait for its writer, so the kind is asked first.
     let about = std::fs::metadata(path)?;

@@ -1,4 +1,4 @@
-//! Ctrl-C: the process ends with 130, but never between a half-written file and its removal.
+//! Ctrl-C: the process ends with exit code 130, and leaves no half-written file behind.
 
 use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -6,15 +6,15 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 /// Exit code of an interrupted run.
 const INTERRUPTED: i32 = 130;
 
-/// Held while a file comes to be, or is put in its place.
+/// Held while a file is created, or moved to its final name.
 static WRITING: Mutex<()> = Mutex::new(());
 
-/// The file that is being written, under a name of its own: goes with the process.
+/// The temporary file that is being written. An interrupt removes it.
 static UNFINISHED: Mutex<Option<PathBuf>> = Mutex::new(None);
 
-/// Ends the process at Ctrl-C, or when asked to terminate, once no file is being written.
+/// Makes Ctrl-C and requests to terminate end the process. They wait for [`hold_off`], and remove an unfinished file.
 ///
-/// Where the system refuses the handler, Ctrl-C does what the system lets it do by itself.
+/// Where the system refuses the handler, Ctrl-C keeps the system's own behaviour.
 pub fn install() {
     let _ = ctrlc::set_handler(|| {
         let _writing = hold_off();
@@ -25,7 +25,7 @@ pub fn install() {
     });
 }
 
-/// Puts interruption off for as long as the guard lives. Only for work that ends by itself.
+/// Delays an interrupt for as long as the guard lives. Use it only for work that is sure to end.
 pub fn hold_off() -> MutexGuard<'static, ()> {
     WRITING.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -1,4 +1,4 @@
-//! What is in a scene, as data that can be told in words or as JSON.
+//! The contents of a scene, as data that can be printed in words or as JSON.
 
 mod volume;
 mod words;
@@ -9,7 +9,7 @@ use crate::source::Loaded;
 use npr_scene::{AlphaMode, Format, LightKind, Projection, Scene};
 use serde::Serialize;
 
-/// What is in a scene, what of it is drawn and what is ignored.
+/// The contents of a scene: what it holds, what is drawn and what is ignored.
 #[derive(Debug, Clone, Serialize)]
 pub struct Inventory {
     /// The file as the user named it.
@@ -20,15 +20,15 @@ pub struct Inventory {
     generator: Option<String>,
     node_count: usize,
     mesh_count: usize,
-    /// As stored: an instanced mesh counts once.
+    /// Triangles as stored: an instanced mesh counts once.
     triangle_count: usize,
-    /// Segments of lines that are geometry themselves, likewise.
+    /// Segments of polylines, also as stored.
     line_segment_count: usize,
     vertex_count: usize,
-    /// Counted for every instance.
+    /// Triangles of all instances.
     drawn_triangle_count: usize,
     drawn_line_segment_count: usize,
-    /// In the world, in the pose of the file; none where nothing is drawn.
+    /// Bounding box in world space, in the pose of the file; `None` where nothing is drawn.
     bounds: Option<Bounds>,
     drawn: Vec<Drawn>,
     materials: Vec<Material>,
@@ -61,7 +61,7 @@ struct Material {
     name: String,
     /// Linear light, straight alpha.
     base_color: [f32; 4],
-    /// Number of its image.
+    /// Index of its image.
     image: Option<u32>,
     alpha: &'static str,
     double_sided: bool,
@@ -137,7 +137,7 @@ fn format_name(format: Option<Format>, scene: &Scene) -> &'static str {
     }
 }
 
-/// What loading ignored, and what drawing will.
+/// Notices about what loading ignored, and about what drawing will ignore.
 fn ignored(scene: &Scene) -> Vec<String> {
     let mut notices: Vec<String> = scene.notices.iter().map(ToString::to_string).collect();
     if !scene.lights.is_empty() {
@@ -189,7 +189,7 @@ fn image(image: &npr_scene::Image) -> Image {
     }
 }
 
-/// Cameras by the names that `--camera` takes: a node's own, or else the camera's.
+/// Cameras under the names that `--camera` takes: the name of the node, or of the camera where the node has none.
 fn cameras(scene: &Scene) -> Vec<Named> {
     let placed = scene
         .nodes

@@ -1,4 +1,4 @@
-//! One picture to draw: what the user said, resolved.
+//! The job of `npr render`: its arguments, resolved and checked.
 
 use crate::arguments::{DrawingArguments, LookArguments, RenderArguments, Size};
 use crate::ending::has_ending;
@@ -11,27 +11,27 @@ use crate::volume::USUAL_STYLE;
 use npr_render::RendererOptions;
 use std::path::{Path, PathBuf};
 
-/// Most pixels of a picture along a side.
+/// Longest side of a picture, in pixels.
 const SIDE_LIMIT: u32 = 32_768;
 
-/// One picture to draw. Everything that can be checked without reading the scene has been.
+/// One picture to draw. Everything that can be checked without reading the scene is already checked.
 pub struct Job<'a> {
-    /// What the user said, for all that needs no resolving.
+    /// The arguments, for everything that needs no resolving.
     pub args: &'a RenderArguments,
-    /// Where the scene comes from.
+    /// The source of the scene.
     pub source: Source,
-    /// Where the picture goes.
+    /// The destination of the picture.
     pub output: Output,
-    /// How it looks.
+    /// The resolved style.
     pub look: Look,
-    /// How it is drawn.
+    /// The options of the renderer.
     pub options: RendererOptions,
-    /// Where what is costly to prepare is kept between runs.
+    /// The folder that keeps prepared data between runs; `None` for no cache.
     pub cache: Option<PathBuf>,
 }
 
 impl<'a> Job<'a> {
-    /// Resolves what the user said; reads the style and its pictures and fonts, but not the scene.
+    /// Resolves the arguments. Reads the style with its pictures and fonts, but not the scene.
     pub fn resolve(args: &'a RenderArguments) -> Result<Self, Fault> {
         let source = Source::of(args.scene.as_deref().unwrap_or(Path::new("-")));
         let path = output_path(args.output.as_deref(), &source, "png")?;
@@ -52,7 +52,7 @@ impl<'a> Job<'a> {
 }
 
 impl RenderArguments {
-    /// What the user said about the style; a volume alone has a style of its own where nothing is said.
+    /// The arguments about the style. A volume alone gets a preset for smoke where the user names no style.
     pub fn look(&self) -> LookArguments {
         match &self.scene {
             Some(scene) if has_volume_name(scene) => self.drawing.look.or_style(USUAL_STYLE),
@@ -61,7 +61,7 @@ impl RenderArguments {
     }
 }
 
-/// How pictures are drawn: reads the pictures and fonts of the look. Refuses sizes beyond the limit.
+/// The options of the renderer. Reads the pictures and fonts of the look, and refuses sizes beyond the limit.
 pub fn renderer_options(args: &DrawingArguments, look: &Look) -> Result<RendererOptions, Fault> {
     check_size(args.size)?;
     let (limits, external) = (args.limits.limits(), args.allow_external.as_deref());
@@ -75,7 +75,7 @@ pub fn renderer_options(args: &DrawingArguments, look: &Look) -> Result<Renderer
     })
 }
 
-/// Refuses sides beyond the limit.
+/// Refuses sizes with a side longer than the limit.
 pub fn check_size(size: Size) -> Result<(), Fault> {
     let side = size.width.max(size.height);
     if side <= SIDE_LIMIT {
@@ -87,7 +87,7 @@ pub fn check_size(size: Size) -> Result<(), Fault> {
     Err(Fault::new(Exit::Limit, message))
 }
 
-/// Refuses files that are no pictures.
+/// Refuses file names that do not end in .png; `-` is allowed.
 pub fn check_ending(path: &Path) -> Result<(), Fault> {
     if path.as_os_str() == "-" || has_ending(path, "png") {
         return Ok(());
@@ -99,7 +99,7 @@ pub fn check_ending(path: &Path) -> Result<(), Fault> {
     Err(Fault::new(Exit::Usage, message))
 }
 
-/// The path asked for, or else the scene's name with an ending, in the current folder.
+/// The path that the user gave, or else the scene's name with the extension `ending`, in the current folder.
 pub fn output_path(asked: Option<&Path>, source: &Source, ending: &str) -> Result<PathBuf, Fault> {
     match (asked, source) {
         (Some(path), _) => Ok(path.to_owned()),

@@ -1,8 +1,8 @@
-//! The command `npr`, as a library of two functions: [`run`] does what a command line says, and
-//! [`command`] describes all that may be said, for completions and reference pages.
+//! The command `npr` as a library of two functions: [`run`] executes a command line, and [`command`] describes every
+//! command and option, for completions and manual pages.
 //!
-//! Arguments are parsed into what the user said and then resolved into a job; only the second step
-//! touches files or a graphics device.
+//! A command line is parsed into plain arguments, which are then resolved into a job. Only the second step touches
+//! files or a graphics device.
 //!
 //! ```
 //! let command = npr_cli::command();
@@ -59,18 +59,18 @@ use fault::{Exit, Fault};
 use std::ffi::OsString;
 use std::process::ExitCode;
 
-/// Does what a command line says, the program's own name first, and gives the exit code.
+/// Executes a command line, whose first entry is the program's own name, and returns the exit code.
 ///
-/// 0 done, 1 failed while working, 2 command line or style file wrong, 3 input invalid or unsupported,
-/// 4 no graphics device, 5 a safety limit hit; an interrupt ends the process with 130. Takes over the
-/// process's signals for interruption, so it is called once.
+/// The code is 0 for success, 1 for a failure while working, 2 for a wrong command line or style file, 3 for invalid
+/// or unsupported input, 4 where no graphics device can draw, and 5 for a safety limit. An interrupt ends the process
+/// with 130. The function handles the interrupt signals of the process, so call it only once.
 ///
 /// `before_devices` is called before anything else is done for a command that may open a graphics device.
 pub fn run(
     arguments: impl IntoIterator<Item = OsString>,
     before_devices: impl FnOnce(),
 ) -> ExitCode {
-    // Obey the command line, or say what is wrong with it.
+    // Execute the command line, or report what is wrong with it.
     let done = match Arguments::try_parse_from(arguments) {
         Ok(arguments) => {
             if arguments.command.may_open_device() {
@@ -101,9 +101,9 @@ pub fn command() -> clap::Command {
     Arguments::command()
 }
 
-/// Makes this thread one of those that share parallel work, so that one thread less is started.
+/// Makes this thread one of the workers for parallel work, so that one thread less is started.
 ///
-/// Where workers cannot be started, parallel work says so when it comes.
+/// A failure to start workers is ignored here, because the first parallel work reports it.
 fn join_workers() {
     let _ = rayon::ThreadPoolBuilder::new()
         .use_current_thread()

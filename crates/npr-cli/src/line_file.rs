@@ -1,4 +1,4 @@
-//! From a drawing to the bytes of its file.
+//! Encodes a line drawing in the format of its file.
 
 use crate::arguments::LineFormat;
 use crate::encoder;
@@ -13,10 +13,10 @@ use npr_drawing::pdf::write_pdf;
 use npr_drawing::svg::write_svg;
 use npr_render::{Drawing, RenderError};
 
-/// Bytes a pixel: the canvas, the picture and the file.
+/// Memory for a pixel of a PNG file, in bytes: canvas, picture and file together.
 const BYTES_PER_PIXEL: usize = 12;
 
-/// The file that a job asks for, with words over its lines.
+/// The bytes of the file that a job asks for, with `lettering` over its lines.
 pub fn encode(
     job: &LineJob<'_>,
     drawing: &Drawing,
@@ -34,7 +34,7 @@ pub fn encode(
     }
 }
 
-/// Refuses a picture that memory has no room for.
+/// Refuses a picture that exceeds the memory limit.
 pub fn check_memory(job: &LineJob<'_>) -> Result<(), Fault> {
     if job.format != LineFormat::Png {
         return Ok(());

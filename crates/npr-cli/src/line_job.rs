@@ -1,4 +1,4 @@
-//! One line drawing: what the user said, resolved.
+//! The job of `npr lines`: its arguments, resolved and checked.
 
 use crate::arguments::{
     HiddenLines, LineArguments, LineFormat, LinesArguments, LookArguments, PaintedName, PathForm,
@@ -22,34 +22,34 @@ use std::path::{Path, PathBuf};
 
 const MM_PER_INCH: f64 = 25.4;
 
-/// One line drawing. Everything that can be checked without reading the scene has been.
+/// One line drawing. Everything that can be checked without reading the scene is already checked.
 pub struct LineJob<'a> {
-    /// What the user said, for all that needs no resolving.
+    /// The arguments, for everything that needs no resolving.
     pub args: &'a LinesArguments,
-    /// Where the scene comes from.
+    /// The source of the scene.
     pub source: Source,
-    /// What loading may cost.
+    /// The limits for loading.
     pub limits: Limits,
-    /// Where the drawing goes.
+    /// The destination of the drawing.
     pub output: Output,
-    /// What it is written as.
+    /// The format of the file.
     pub format: LineFormat,
-    /// How it looks.
+    /// The resolved style.
     pub look: Look,
-    /// Which lines it has.
+    /// The options that choose the lines and how they are found.
     pub options: LineOptions,
-    /// How it is put into a file.
+    /// The options of the file: paths, hidden lines, background and page.
     pub artwork: ArtworkOptions,
     /// Words over the lines, set in their fonts.
     pub lettering: Lettering,
-    /// How the background is drawn, where the style adapts lines to what lies behind them.
+    /// The options that draw the background, where the style adapts lines to it.
     pub backdrop: Option<RendererOptions>,
-    /// Where what is costly to prepare is kept between runs.
+    /// The folder that keeps prepared data between runs; `None` for no cache.
     pub cache: Option<PathBuf>,
 }
 
 impl<'a> LineJob<'a> {
-    /// Resolves what the user said; reads the style and its fonts, but not the scene.
+    /// Resolves the arguments. Reads the style and its fonts, but not the scene.
     pub fn resolve(args: &'a LinesArguments) -> Result<Self, Fault> {
         check_size(args.drawing.size)?;
         let source = Source::of(args.scene.as_deref().unwrap_or(Path::new("-")));
@@ -68,7 +68,7 @@ impl<'a> LineJob<'a> {
             lettering: Lettering::new(&look.style, &fonts)?,
             source,
             limits: Limits {
-                // Id maps lie as textures do, which are known where images are.
+                // Id maps are placed as the textures of a part, which are known only where images are decoded.
                 decode_images: contrast
                     || args.lines.painted.is_some()
                     || !look.style.id_map.is_empty()
@@ -88,7 +88,7 @@ impl<'a> LineJob<'a> {
 }
 
 impl LineJob<'_> {
-    /// Where the style is drawn, for telling which of its keys cannot act.
+    /// The occasion that decides which keys of the style have an effect.
     pub fn occasion(&self, scene: Facts) -> Occasion {
         let source = self.options.method;
         let form = match (self.format, self.artwork.paths) {
@@ -105,7 +105,7 @@ impl LineJob<'_> {
 }
 
 impl LinesArguments {
-    /// The built-in source of smoke that the scene names; none where there is a file of that name.
+    /// The built-in source of smoke that the argument `scene` names; `None` where there is a file of that name.
     pub fn built_in(&self) -> Option<VolumeSource> {
         let name = self.scene.as_deref().filter(|name| !name.exists())?;
         let source = VolumeSource::of(name);
@@ -117,7 +117,7 @@ impl LinesArguments {
         self.scene.as_deref().is_some_and(has_volume_name) || self.built_in().is_some()
     }
 
-    /// What the user said about the style; smoke alone has a style of its own where nothing is said.
+    /// The arguments about the style. Smoke alone gets a preset for smoke where the user names no style.
     pub fn look(&self) -> LookArguments {
         let look = &self.drawing.look;
         match self.built_in() {
@@ -129,7 +129,7 @@ impl LinesArguments {
 }
 
 impl LineFormat {
-    /// The usual ending of file names.
+    /// The extension of its files, without the dot.
     pub fn ending(self) -> &'static str {
         match self {
             Self::Svg => "svg",
@@ -140,7 +140,7 @@ impl LineFormat {
     }
 }
 
-/// The format asked for, or else that of the name; svg on standard output.
+/// The format that the user gave, or else that of the path's extension; SVG on standard output.
 fn format_of(asked: Option<LineFormat>, path: &Path) -> Result<LineFormat, Fault> {
     // Take the format asked for; standard output has no name to tell one.
     if let Some(format) = asked {
@@ -167,7 +167,7 @@ fn format_of(asked: Option<LineFormat>, path: &Path) -> Result<LineFormat, Fault
     })
 }
 
-/// Refuses a page for what has none.
+/// Refuses `--page` for formats without pages.
 fn check_page(args: &LinesArguments, format: LineFormat) -> Result<(), Fault> {
     let has_page = matches!(format, LineFormat::Svg | LineFormat::Pdf);
     if args.sheet.page.is_none() || has_page {
@@ -180,7 +180,7 @@ fn check_page(args: &LinesArguments, format: LineFormat) -> Result<(), Fault> {
     Err(Fault::new(Exit::Usage, message))
 }
 
-/// Refuses hidden lines of a method that knows none.
+/// Refuses `--hidden` for methods that find no hidden lines.
 fn check_hidden(args: &LineArguments) -> Result<(), Fault> {
     if !args.method.is_of_pixels() || args.hidden == HiddenLines::None {
         return Ok(());
@@ -193,7 +193,7 @@ fn check_hidden(args: &LineArguments) -> Result<(), Fault> {
     Err(Fault::new(Exit::Usage, message))
 }
 
-/// The lines that the style asks for, with what the user said in place of its own values.
+/// The line options of the style, with the arguments in place of its own values.
 fn options(args: &LinesArguments, style: &Style) -> LineOptions {
     let of_style =
         LineOptions::of_style(style, [args.drawing.size.width, args.drawing.size.height]);
@@ -225,7 +225,7 @@ fn options(args: &LinesArguments, style: &Style) -> LineOptions {
         }),
         smooth: *smooth == Switch::On,
         hidden: *hidden != HiddenLines::None,
-        // Smoke is more than its outline, but for a pen.
+        // Smoke needs more than its outline, except on a pen plotter.
         fill: *fill || args.is_smoke() && args.sheet.svg == PathForm::Outline,
         dpi: args
             .sheet
@@ -248,7 +248,7 @@ fn dpi_on(page: Page, size: [u32; 2]) -> f32 {
     (MM_PER_INCH / arrange(&nothing, &options).scale) as f32
 }
 
-/// How the drawing is put into its file.
+/// The options of the file.
 fn artwork(args: &LinesArguments, style: &Style) -> ArtworkOptions {
     let paths = match args.sheet.svg {
         PathForm::Outline => Paths::Outline,
@@ -262,7 +262,7 @@ fn artwork(args: &LinesArguments, style: &Style) -> ArtworkOptions {
             HiddenLines::Dashed => Hidden::Dashed,
         },
         background: match style.background {
-            // A plotter would draw around the ground.
+            // A pen plotter would draw the outline of the background.
             _ if paths == Paths::Centreline => None,
             Background::Color(color) => Some([color.r, color.g, color.b, color.a]),
             Background::Transparent | Background::Image(_) => None,

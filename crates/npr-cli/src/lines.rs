@@ -1,4 +1,4 @@
-//! `npr lines`: the lines of a scene as curves.
+//! `npr lines`: draws the lines of a scene as curves.
 
 use crate::arguments::{
     Backend, LineArguments, LineFormat, LinesArguments, RenderArguments, SheetArguments,
@@ -40,7 +40,7 @@ pub fn lines(args: &LinesArguments) -> Result<(), Fault> {
     Ok(())
 }
 
-/// Draws a picture whose style is lines only as curves.
+/// Draws a picture for `npr render` as curves. Its style must draw nothing but lines.
 pub fn lines_of_picture(args: &RenderArguments) -> Result<(), Fault> {
     let look = Look::resolve(&args.drawing.look, args.drawing.allow_external.as_deref())?;
     let Some(paper) = look.paper_of_lines() else {
@@ -53,7 +53,7 @@ pub fn lines_of_picture(args: &RenderArguments) -> Result<(), Fault> {
         output: args.output.clone(),
         format: Some(LineFormat::Svg),
         lines: LineArguments {
-            // Paper of the background's own colour shows nowhere.
+            // Paper in the colour of the background would not show.
             fill: look.style.background != Background::Color(paper),
             ..LineArguments::default()
         },
@@ -64,7 +64,7 @@ pub fn lines_of_picture(args: &RenderArguments) -> Result<(), Fault> {
     lines(&lines_said)
 }
 
-/// From the scene's file to the drawing's.
+/// Loads the scene, draws its lines and writes the file.
 fn draw(job: &LineJob<'_>, progress: &mut Progress) -> Result<Drawn<LineFrame>, Fault> {
     line_file::check_memory(job)?;
     let engine = EngineChoice::begin(&job.args.drawing);
@@ -83,10 +83,10 @@ fn draw(job: &LineJob<'_>, progress: &mut Progress) -> Result<Drawn<LineFrame>, 
     Ok(drawn)
 }
 
-/// A scene made ready.
+/// A scene prepared for drawing lines.
 struct Prepared {
     lines: LineModel,
-    /// The scene as pictures show it, where lines adapt to what lies behind them.
+    /// The model that the background is drawn from, where lines adapt to it.
     behind: Option<Model>,
 }
 
@@ -100,7 +100,7 @@ impl Prepared {
     }
 }
 
-/// A drawing, and how long the passes on its engine took.
+/// A drawing, and the times of the passes on its engine.
 struct LineFrame {
     drawing: Drawing,
     times: Vec<PassTime>,
@@ -136,7 +136,7 @@ fn draw_lines(
     Ok(drawn)
 }
 
-/// Loads the scene and makes it ready; says what is ignored.
+/// Loads and prepares the scene, and warns about what is ignored.
 fn prepare(job: &LineJob<'_>, progress: &mut Progress) -> Result<Prepared, Fault> {
     let external = job.args.drawing.allow_external.as_deref();
     let mut loaded = progress.step("load", || match job.args.built_in() {

@@ -16,16 +16,16 @@ use npr_stylesheet::{
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// The style of a picture, with the files that its pictures come from.
+/// The style of a picture, with the paths of the files that it names.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Look {
-    /// The style, overrides applied.
+    /// The style with all overrides applied.
     pub style: Style,
     /// The style without `--background`, and which of its keys the user stated.
     stated: Stated,
     background: Option<PictureFile>,
     width: Option<PictureFile>,
-    /// Fonts of its words, each name once, with the first words that use it.
+    /// Fonts of its lettering, each name once, with the key that names it first.
     fonts: Vec<NamedFile>,
     /// Pictures that its tones are made from.
     pictures: Vec<NamedFile>,
@@ -37,16 +37,16 @@ pub struct Look {
 /// A file that a style names.
 #[derive(Debug, Clone, PartialEq, Eq)]
 enum PictureFile {
-    /// Named by the user: any file, from the current folder.
+    /// A path from the command line: any file, relative to the current folder.
     Typed(PathBuf),
-    /// Named by a style file: confined to that file's folder.
+    /// A name from a style file: confined to that file's folder.
     Beside { folder: PathBuf, name: String },
 }
 
 /// A font or picture that a style names by a key.
 #[derive(Debug, Clone, PartialEq, Eq)]
 struct NamedFile {
-    /// As the style has it.
+    /// The name in the style.
     name: String,
     /// The key that names it first.
     key: String,
@@ -56,10 +56,10 @@ struct NamedFile {
 impl Look {
     /// The style that the user asked for.
     ///
-    /// Later wins: preset or file, `--set` in order, `--background`. Reads the style file with its parents,
-    /// but no pictures and fonts.
+    /// The preset or file comes first, then `--set` in order, then `--background`; later ones win. Reads the style
+    /// file with its parents, but no pictures and fonts.
     pub fn resolve(args: &LookArguments, external: Option<&Path>) -> Result<Self, Fault> {
-        // Read the style, and lay what the user set over it.
+        // Read the style, and apply the user's overrides.
         let source = StyleSource::of(args.style.as_deref());
         let mut stated = source.load(external)?;
         let written = stated.style().clone();
@@ -71,7 +71,7 @@ impl Look {
             style.background = background.clone();
         }
 
-        // Find the files that it names: beside the style file, or where the user stands.
+        // Locate the files that it names: beside the style file, or from the current folder.
         let file = |now: Option<&str>, before: Option<&str>| {
             now.map(|name| PictureFile::of(name, source.file().filter(|_| now == before)))
         };
@@ -87,7 +87,7 @@ impl Look {
         })
     }
 
-    /// The same with what the user said about smoke.
+    /// The look with the arguments about smoke applied.
     pub fn with_smoke(mut self, args: &VolumeArguments) -> Self {
         self.style.smoke = args.over(&self.style.smoke);
         self
@@ -135,7 +135,7 @@ impl Look {
         load_named(&self.pictures, |file| file.load(limits, external))
     }
 
-    /// Cuts the parts of a scene up by the style's id maps, whose pictures it reads.
+    /// Reads the pictures of the style's id maps, and cuts the parts of a scene up by them.
     pub fn apply_id_maps(
         &self,
         scene: &mut Scene,
@@ -146,7 +146,7 @@ impl Look {
         Ok(npr_render::apply_id_maps(scene, &self.style, &pictures)?)
     }
 
-    /// What to tell the user of keys that cannot act on an occasion.
+    /// The notices about stated keys that have no effect on an occasion.
     pub fn notices(&self, occasion: &Occasion) -> Vec<String> {
         self.stated.notices(occasion)
     }
@@ -163,7 +163,7 @@ impl Look {
         pictures.chain(named).chain(self.style_file.clone())
     }
 
-    /// Whether the picture may be seen through.
+    /// Whether the background may leave the picture transparent.
     pub fn is_transparent(&self) -> bool {
         match self.style.background {
             Background::Transparent => true,
@@ -172,7 +172,8 @@ impl Look {
         }
     }
 
-    /// The colour of the paper where nothing but lines shows on it; none where surfaces have tones or colours.
+    /// The colour of the paper, where the style shows nothing but lines on it; `None` where surfaces have tones or
+    /// colours.
     pub fn paper_of_lines(&self) -> Option<Color> {
         let (style, shade) = (&self.style, &self.style.shade);
         let is_plain = |stop: &Stop| stop.light == 1.0 && stop.tint.is_none();
@@ -192,7 +193,7 @@ impl Look {
         lines_only.then_some(shade.paper)
     }
 
-    /// What is wrong with the width of lines against their mask, in a frame `height` pixels high.
+    /// The warning about lines that are thinner than those of their mask, in a frame `height` pixels high.
     ///
     /// There is no warning for a mask as fine as the frame, since there is no finer one, nor for widths in world units,
     /// which depend on the camera.
@@ -231,7 +232,7 @@ fn width_name(style: &Style) -> Option<&str> {
         .filter(|_| width.source == WidthSource::Texture)
 }
 
-/// The fonts that a style names; names that stand in the style file too are looked for beside it.
+/// The fonts that a style names. Names that the style file has itself are looked for beside it.
 fn font_files(style: &Style, written: &Style, style_file: Option<&Path>) -> Vec<NamedFile> {
     let mut fonts: Vec<NamedFile> = Vec::new();
     for (index, words) in style.lettering.iter().enumerate() {
@@ -268,7 +269,7 @@ fn picture_files(
     listed(style).into_iter().map(file).collect()
 }
 
-/// Everything that `files` hold, by name; what goes wrong tells the key first.
+/// The loaded contents of `files`, by name. An error message starts with the key that names the file.
 fn load_named<T>(
     files: &[NamedFile],
     load: impl Fn(&PictureFile) -> Result<T, Fault>,

@@ -1,11 +1,11 @@
-//! `npr man`: reference pages.
+//! `npr man`: manual pages.
 
 use crate::fault::{Exit, Fault};
 use crate::message;
 use crate::output;
 use clap_mangen::Man;
 
-/// Prints the page of a command, or that of all of them.
+/// Prints the manual page of a command, or that of `npr` itself where `name` is `None`.
 pub fn manual(name: Option<&str>) -> Result<(), Fault> {
     let mut command = crate::command();
     command.build();

@@ -1,4 +1,4 @@
-//! Lines on standard error, and names made fit for them.
+//! Messages on standard error, and the escaping of names in them.
 
 use crate::fault::Fault;
 use clap::error::ErrorKind;
@@ -11,32 +11,32 @@ const LINE_LENGTH: usize = 299;
 /// Longest name within a line, in characters.
 const NAME_LENGTH: usize = 120;
 
-/// Says why a run ends.
+/// Prints the error that ends a run.
 pub fn fault(fault: &Fault) {
     write_line(&format!("npr: {}", fault.message));
 }
 
-/// Says what is odd but does not end the run, unless `quiet`.
+/// Prints a warning, unless `quiet`.
 pub fn warn(quiet: bool, text: &str) {
     if !quiet {
         write_line(&format!("npr: warning: {text}"));
     }
 }
 
-/// Says everything of a list that is odd, in order, unless `quiet`.
+/// Prints a list of warnings in order, unless `quiet`.
 pub fn warn_all<T: AsRef<str>>(quiet: bool, texts: impl IntoIterator<Item = T>) {
     for text in texts {
         warn(quiet, text.as_ref());
     }
 }
 
-/// Writes one line; where standard error is closed, nobody reads it.
+/// Writes one line. A closed standard error is ignored.
 fn write_line(text: &str) {
     let line = cut(&plain(text), LINE_LENGTH);
     let _ = writeln!(std::io::stderr(), "{line}");
 }
 
-/// A path in quotes, as it stands in messages: of a long one, the end.
+/// A path in quotes, for messages. Only the end of a long path is kept.
 pub fn quoted(path: &Path) -> String {
     let text = plain(&path.to_string_lossy());
     let length = text.chars().count();
@@ -60,12 +60,12 @@ pub fn plain(text: &str) -> String {
     line
 }
 
-/// A name from a file, fit for a line of text.
+/// A name from a file, escaped and shortened for a line of text.
 pub fn name(text: &str) -> String {
     cut(&plain(text), NAME_LENGTH)
 }
 
-/// Direction marks and line separators of Unicode.
+/// Whether a character is a direction mark or a line separator of Unicode.
 fn reorders(character: char) -> bool {
     matches!(
         character,
@@ -82,7 +82,7 @@ fn cut(text: &str, length: usize) -> String {
     start
 }
 
-/// What is wrong with a command line, in one line: clap spreads it over several and adds the usage.
+/// The message about a wrong command line, in one line. clap spreads it over several and adds the usage.
 pub fn of_usage(error: &clap::Error) -> String {
     if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
         return "no command is given; npr --help lists them".to_owned();

@@ -1,4 +1,4 @@
-//! Graphics devices, in a build without any.
+//! The functions of `hardware`, in a build without graphics devices.
 
 use crate::adapter_report::AdapterReport;
 use crate::device_choice::DeviceChoice;
@@ -11,7 +11,7 @@ pub fn open(_: DeviceChoice, _: bool) -> Result<Box<dyn Engine + Send>, EngineEr
     })
 }
 
-/// This build knows no adapters.
+/// Always empty.
 pub fn adapters() -> Vec<AdapterReport> {
     Vec::new()
 }

@@ -1,4 +1,4 @@
-//! `npr outline`: a figure before a background, outlined by the published method on two pictures.
+//! `npr outline`: outlines a figure before a background, by the published method on two pictures.
 
 use crate::arguments::{Behind, OutlineArguments};
 use crate::encoder::png;
@@ -17,8 +17,8 @@ use npr_scene::Limits;
 use npr_style::backdrop::published;
 use std::path::PathBuf;
 
-/// Bytes of a pixel while it is drawn: three colours of four floats, that of its line, and the bytes of three
-/// pictures.
+/// Memory for a pixel while it is drawn, in bytes: three colours of four floats, the colour of its line, and four
+/// bytes for each of three pictures.
 const PIXEL_BYTES: usize = 3 * 16 + 16 + 12;
 
 /// Outlines the figure that the user named before its background.
@@ -29,7 +29,7 @@ pub fn outline(args: &OutlineArguments) -> Result<(), Fault> {
     let sources = Sources::of(args)?;
     output.refuse_any_of(&sources.inputs())?;
 
-    // Read both pictures, of one size.
+    // Read both pictures, and check that they have the same size.
     let limits = args.limits.limits();
     let mut progress = Progress::new(args.quiet);
     let figure = progress.step("load", || load(&sources.figure, &limits))?;
@@ -62,7 +62,7 @@ pub fn outline(args: &OutlineArguments) -> Result<(), Fault> {
     Ok(())
 }
 
-/// Where both pictures come from.
+/// The sources of the figure and of what lies behind it.
 struct Sources {
     figure: Source,
     behind: Ground,
@@ -89,7 +89,7 @@ impl Sources {
         Ok(Self { figure, behind })
     }
 
-    /// The files among them.
+    /// The paths of the sources that are files.
     fn inputs(&self) -> Vec<PathBuf> {
         let behind = match &self.behind {
             Ground::Color(_) => None,
@@ -135,7 +135,7 @@ fn colors(picture: &Picture) -> Vec<[f32; 4]> {
     pixels.iter().map(color).collect()
 }
 
-/// The same as bytes.
+/// The pixels as sRGB bytes with straight alpha.
 fn bytes(pixels: &[[f32; 4]]) -> Vec<u8> {
     let byte = |channel: &f32| (channel.clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
     pixels.iter().flatten().map(byte).collect()

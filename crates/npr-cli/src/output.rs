@@ -1,4 +1,4 @@
-//! Where results go: standard output, or a file that appears whole or not at all.
+//! The destinations of results: standard output, or a file that appears whole or not at all.
 
 use crate::fault::{Exit, Fault};
 use crate::interrupt;
@@ -6,19 +6,20 @@ use crate::message::quoted;
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-/// Where a picture goes.
+/// The destination of a picture.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Output {
     /// Standard output.
     Standard,
-    /// A file that can be written, links resolved.
+    /// A file that can be written; links in its path are resolved.
     File(PathBuf),
 }
 
 impl Output {
-    /// The place that `path` names, `-` for standard output.
+    /// The destination that `path` names; `-` is standard output.
     ///
-    /// Checks all that can be known before the work is done: the folder, and what stands there.
+    /// Fails before any work is done where the folder is missing, or where something other than a writable file is at
+    /// `path`.
     pub fn of(path: &Path) -> Result<Self, Fault> {
         if path.as_os_str() == "-" {
             return Ok(Self::Standard);
@@ -41,12 +42,12 @@ impl Output {
         Ok(())
     }
 
-    /// Writes all bytes. A reader that closes standard output early has had enough: that is no fault.
+    /// Writes all bytes. It is no error where the reader of standard output closes it early.
     pub fn write(&self, bytes: &[u8]) -> Result<(), Fault> {
         self.write_with(|sink| sink.write_all(bytes))
     }
 
-    /// Writes what `fill` writes, as it comes; else as [`Self::write`].
+    /// Writes the bytes of `fill` as they come, otherwise as [`Self::write`] does.
     pub fn write_with(
         &self,
         fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
@@ -90,7 +91,7 @@ fn resolve(path: &Path) -> Result<PathBuf, Fault> {
     }
 }
 
-/// `path`, which does not exist yet, in its folder with links resolved.
+/// A path that does not exist yet, with the links of its folder resolved.
 fn in_folder(path: &Path) -> Result<PathBuf, Fault> {
     let folder = folder_of(path);
     let folder = folder.canonicalize().map_err(|error| match error.kind() {
@@ -111,8 +112,8 @@ pub fn folder_of(path: &Path) -> &Path {
     }
 }
 
-/// Writes a file beside its place and renames it when whole, so that whoever looks sees the old file or
-/// the new one. Nothing stays behind where it fails or is interrupted.
+/// Writes a temporary file in the same folder and renames it when it is whole, so that readers see the old file or the
+/// new one. No temporary file stays behind after a failure or an interrupt.
 fn write_atomic(
     path: &Path,
     fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
@@ -124,7 +125,7 @@ fn write_atomic(
         file
     };
     let filled = fill(&mut file);
-    // From here on an interrupt waits until it is done.
+    // From here on an interrupt waits until the file has its final name.
     let _writing = interrupt::hold_off();
     *interrupt::unfinished() = None;
     filled?;
@@ -137,7 +138,7 @@ fn write_atomic(
 fn new_file_in(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
     use std::os::unix::fs::PermissionsExt;
 
-    // As any new file: what the user's mask leaves of this.
+    // Ask for the permissions of any new file, which the user's umask restricts.
     let permissions = std::fs::Permissions::from_mode(0o666);
     tempfile::Builder::new()
         .prefix(".npr-")

@@ -1,4 +1,4 @@
-//! Pictures that a style names, backgrounds and width textures, and bitmaps to trace.
+//! Decodes the pictures that a style names, and bitmaps to trace or outline.
 
 use crate::broken_image::{broken, stopped};
 use crate::colors::reduce;
@@ -23,13 +23,13 @@ const BITMAPS: [ImageFormat; 6] = [
     ImageFormat::Bmp,
 ];
 
-/// Bytes at most before the rows of a file that is read without being held.
+/// Longest header, in bytes, of a binary PBM file that is read without holding its bytes.
 const HEAD_BYTES: u64 = 256;
 
-/// Bytes of a pixel as it is read and as it is used, up to eight and four.
+/// Memory for a pixel, in bytes: up to eight as it is decoded and four as it is used.
 const PIXEL_BYTES: usize = 12;
 
-/// Bytes of a pixel more while a picture is reduced to few colours, or cut into layers.
+/// Further memory for a pixel, in bytes, while a picture is reduced to few colours or cut into layers.
 const COLOUR_BYTES: usize = 16;
 
 /// The pixels of a PNG or JPEG file. Its size is checked before any pixel is decoded.
@@ -37,7 +37,7 @@ pub fn decode(bytes: &[u8], limits: &Limits) -> Result<Picture, Fault> {
     decode_as(bytes, limits, &[ImageFormat::Png, ImageFormat::Jpeg])
 }
 
-/// The same of an image file of any format that is read.
+/// The pixels of an image file in any of the formats `BITMAPS`. Its size is checked before any pixel is decoded.
 pub fn decode_any(bytes: &[u8], limits: &Limits) -> Result<Picture, Fault> {
     decode_as(bytes, limits, &BITMAPS)
 }
@@ -50,9 +50,10 @@ fn decode_as(bytes: &[u8], limits: &Limits, formats: &[ImageFormat]) -> Result<P
     })
 }
 
-/// The pixels of an image file of any format that is read, black up to a brightness.
+/// An image file in any of the formats `BITMAPS` as a bitmap. Pixels up to the brightness `black_level`, 0 to 1, are
+/// black.
 ///
-/// What is planned for its pixels has to stay within the memory limit.
+/// The memory planned for its pixels must stay within the limit.
 pub fn decode_bitmap(bytes: &[u8], limits: &Limits, black_level: f64) -> Result<Bitmap, Fault> {
     if let Some((size, packed)) = packed_rows(bytes) {
         check_size(size, limits)?;
@@ -70,16 +71,16 @@ pub fn decode_bitmap(bytes: &[u8], limits: &Limits, black_level: f64) -> Result<
     bitmap.map_err(|error| Fault::new(Exit::Input, error))
 }
 
-/// The pixels of an image file of any format that is read, in at most so many colours.
+/// The pixels of an image file in any of the formats `BITMAPS`, in at most `most` colours.
 ///
-/// What is planned for its pixels, and for the layers made of them, has to stay within the memory limit.
+/// The memory planned for its pixels, and for the layers made of them, must stay within the limit.
 pub fn decode_colors(bytes: &[u8], limits: &Limits, most: u16) -> Result<IndexPicture, Fault> {
     let pixels = image(bytes, limits, &BITMAPS, PIXEL_BYTES + COLOUR_BYTES)?.into_rgba8();
     reduce([pixels.width(), pixels.height()], pixels.as_raw(), most)
 }
 
-/// The pixels of a file of packed rows, read without holding its bytes; none of any other file, nor of one that is
-/// too large or broken.
+/// The pixels of a binary PBM file, read without holding its bytes. `None` for any other file, and for one that is too
+/// long or broken.
 pub fn read_packed(path: &Path, limits: &Limits) -> Result<Option<Bitmap>, Fault> {
     let (mut file, length) = regular_file(path)?;
     if length > limits.file_bytes {
@@ -99,22 +100,22 @@ pub fn read_packed(path: &Path, limits: &Limits) -> Result<Option<Bitmap>, Fault
     Ok(Some(bitmap))
 }
 
-/// Size and rows of a sound file of the format PBM with eight pixels a byte, which need no decoding.
+/// Size and rows of a valid binary PBM file, whose rows of eight pixels a byte need no decoding.
 fn packed_rows(bytes: &[u8]) -> Option<((u32, u32), &[u8])> {
     let head = packed_head(bytes)?;
     let rows = bytes.get(head.length as usize..head.end()? as usize)?;
     Some((head.size, rows))
 }
 
-/// What opens a file of the format PBM with eight pixels a byte.
+/// The header of a binary PBM file, which has eight pixels a byte.
 struct PackedHead {
     size: (u32, u32),
-    /// Bytes before the rows.
+    /// Length of the header, in bytes.
     length: u64,
 }
 
 impl PackedHead {
-    /// Bytes up to the end of the rows, if there are so many.
+    /// Length of header and rows, in bytes; `None` where there are no rows, or where the number overflows.
     fn end(&self) -> Option<u64> {
         let row = u64::from(self.size.0.div_ceil(8));
         let rows = row.checked_mul(u64::from(self.size.1))?;
@@ -126,7 +127,7 @@ fn packed_head(bytes: &[u8]) -> Option<PackedHead> {
     let mut rest = bytes.strip_prefix(b"P4")?;
     let mut sides = [0u32; 2];
     for side in &mut sides {
-        // Files with comments go the longer way.
+        // A file with comments fails here, and goes to the general decoder.
         rest = rest.trim_ascii_start();
         let digits = rest.iter().take_while(|byte| byte.is_ascii_digit()).count();
         *side = std::str::from_utf8(rest.get(..digits)?)
@@ -144,15 +145,15 @@ fn packed_head(bytes: &[u8]) -> Option<PackedHead> {
     })
 }
 
-/// An image file of one of some formats. Its size, and the bytes planned for its pixels, are checked before any is
-/// decoded.
+/// Decodes an image file in one of `formats`. Its size, and `pixel_bytes` of memory for every pixel, are checked
+/// before any pixel is decoded.
 fn image(
     bytes: &[u8],
     limits: &Limits,
     formats: &[ImageFormat],
     pixel_bytes: usize,
 ) -> Result<DynamicImage, Fault> {
-    // Tell the format, and refuse those that are not read here.
+    // Determine the format, and refuse those that are not among `formats`.
     let mut format = None;
     let decoded = guard(|| {
         let mut reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format()?;
@@ -297,7 +298,7 @@ mod tests {
         let bitmap = decode_bitmap(file, &limits, 0.5).expect("sound");
         assert!(bitmap.is_ink(8, 0));
         assert_eq!(read(file, &limits), Ok(Some(bitmap)));
-        // Others go the longer way, which says what is wrong with them.
+        // Other files go to the general decoder, which reports what is wrong with them.
         for other in [
             &file[..10],
             b"P4 # 9\n9 2\n1234",

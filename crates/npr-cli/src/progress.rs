@@ -1,22 +1,22 @@
-//! What is being done right now, on a terminal, and how long each step took.
+//! The progress display on a terminal, and the time that each step took.
 
 use indicatif::{ProgressBar, ProgressStyle};
 use std::cell::Cell;
 use std::io::{self, IsTerminal};
 use std::time::{Duration, Instant};
 
-/// How often the line on the terminal moves.
+/// Time between two updates of the line on the terminal.
 const TICK: Duration = Duration::from_millis(100);
 
-/// Steps of a run: shown while they last, timed when they are over.
+/// The steps of a run. A step is shown while it lasts, and timed.
 pub struct Progress {
-    /// Where somebody may see it.
+    /// The line on the terminal; `None` where nobody would see it.
     bar: Option<ProgressBar>,
     done: Vec<(&'static str, Duration)>,
 }
 
 impl Progress {
-    /// A line on standard error, where that is a terminal and `quiet` is not asked for.
+    /// A progress display on standard error. It shows nothing where that is no terminal, or with `quiet`.
     pub fn new(quiet: bool) -> Self {
         let bar = (!quiet && io::stderr().is_terminal()).then(ProgressBar::new_spinner);
         if let Some(bar) = &bar {
@@ -31,7 +31,7 @@ impl Progress {
         }
     }
 
-    /// Does one step of the work.
+    /// Runs one step of the work, and records its time under `name`.
     pub fn step<R>(&mut self, name: &'static str, work: impl FnOnce() -> R) -> R {
         if let Some(bar) = &self.bar {
             bar.set_message(name);
@@ -42,7 +42,7 @@ impl Progress {
         result
     }
 
-    /// Tells how far a step is that goes on in parts.
+    /// A counter for a step that consists of parts.
     pub fn counter(&self) -> Counter {
         Counter {
             bar: self.bar.clone(),
@@ -50,7 +50,7 @@ impl Progress {
         }
     }
 
-    /// Writes a line by `write`, with the progress out of its way.
+    /// Hides the progress display while `write` writes a line.
     pub fn suspend(&self, write: impl FnOnce()) {
         match &self.bar {
             Some(bar) => bar.suspend(write),
@@ -58,13 +58,13 @@ impl Progress {
         }
     }
 
-    /// Ends the show; the steps with the time each took.
+    /// Ends the display, and gives the steps with the time each took.
     pub fn finish(mut self) -> Vec<(&'static str, Duration)> {
         std::mem::take(&mut self.done)
     }
 }
 
-/// How far one step is, with an estimate of what is left.
+/// Shows how far one step is, with an estimate of the time left.
 pub struct Counter {
     bar: Option<ProgressBar>,
     /// When the first part was reported, and how many were done then.
@@ -96,7 +96,7 @@ fn time_left(elapsed: Duration, done: usize, left: usize) -> Option<Duration> {
 }
 
 impl Drop for Progress {
-    /// Leaves a clean terminal to whatever is said next.
+    /// Clears the line, so that the next message starts on a clean terminal.
     fn drop(&mut self) {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();

@@ -1,4 +1,4 @@
-//! `npr render`: one picture of a scene.
+//! `npr render`: draws one picture of a scene.
 
 use crate::arguments::{DrawingArguments, RenderArguments};
 use crate::bands::draw_into;
@@ -49,7 +49,7 @@ pub fn render(args: &RenderArguments) -> Result<(), Fault> {
     Ok(())
 }
 
-/// From the scene's file to the picture's.
+/// Loads the scene, draws it and writes the picture.
 fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Frame>, Fault> {
     // Load the scene and look at it, while a device opens.
     let engine = EngineChoice::begin(&job.args.drawing);
@@ -89,13 +89,13 @@ fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Frame>, Fault> {
 
 /// A picture that was drawn.
 enum Picture {
-    /// To be written.
+    /// A picture that is still to be written.
     Whole(Frame),
-    /// Written as it was drawn, or not; the frame has no pixels.
+    /// A picture that was written band by band as it was drawn, or the fault of writing. The frame has no pixels.
     InBands(Result<Frame, Fault>),
 }
 
-/// A scene made ready, for lines as curves too where the style has any.
+/// A scene prepared for drawing, with a line model where the style draws lines as curves.
 pub struct Prepared {
     model: Model,
     lines: Option<LineModel>,
@@ -108,7 +108,7 @@ impl Prepared {
         viewpoint::camera(&args.camera, &Seen { model, smoke }, args.size)
     }
 
-    /// The scene in a style on an engine.
+    /// A renderer of the scene, in a style and on an engine.
     pub fn renderer<'a>(
         &'a self,
         engine: &'a dyn Engine,
@@ -123,7 +123,7 @@ impl Prepared {
     }
 }
 
-/// Makes a scene ready.
+/// Prepares a scene for drawing in a style.
 pub fn prepared(
     scene: &Scene,
     style: &Style,
@@ -131,10 +131,10 @@ pub fn prepared(
     cache: Option<&Path>,
     progress: &mut Progress,
 ) -> Result<Prepared, Fault> {
-    // Make surfaces ready.
+    // Prepare surfaces.
     let model = progress.step("prepare", || Model::cached(scene, cache))?;
 
-    // Make lines as curves ready, where the style has any.
+    // Prepare lines as curves, where the style has any.
     let lines = style.has_curves().then(|| {
         let options = LineModelOptions {
             memory_limit: limits.memory_bytes,
@@ -150,7 +150,7 @@ pub fn prepared(
     })
 }
 
-/// Loads the scene and the smoke in it, and makes them ready; says what is ignored.
+/// Loads and prepares the scene and the smoke in it, and warns about what is ignored.
 fn prepare(job: &Job<'_>, progress: &mut Progress) -> Result<(Prepared, Option<Smoke>), Fault> {
     // Load the scene, and refuse to draw over its files.
     let (limits, external) = (
@@ -172,13 +172,13 @@ fn prepare(job: &Job<'_>, progress: &mut Progress) -> Result<(Prepared, Option<S
     let (smoke, reported) = volume::step(progress, &order, loaded.volume)?;
     job.output.refuse_any_of(&reported.inputs)?;
 
-    // Make all of it ready in the style.
+    // Prepare the scene for the style.
     job.look
         .apply_id_maps(&mut loaded.scene, &limits, external)?;
     let (style, cache) = (&job.look.style, job.cache.as_deref());
     let prepared = prepared(&loaded.scene, style, &limits, cache, progress)?;
 
-    // Say what was mended, and what of the style and the options cannot act.
+    // Warn about what was mended, and about keys and options that have no effect.
     let facts = facts_of(&loaded.scene, smoke.is_some());
     progress.suspend(|| {
         warn_of(job, &prepared.model, reported.notices.iter());
@@ -188,7 +188,7 @@ fn prepare(job: &Job<'_>, progress: &mut Progress) -> Result<(Prepared, Option<S
     Ok((prepared, smoke))
 }
 
-/// Says which keys of the style cannot act in pictures of a scene.
+/// Warns about stated keys of the style that have no effect in pictures of a scene.
 pub fn warn_of_idle(look: &Look, scene: Facts, quiet: bool) {
     let output = npr_stylesheet::Output::Frame;
     message::warn_all(quiet, look.notices(&Occasion { output, scene }));
@@ -209,7 +209,7 @@ fn draw_frame(
     camera: &Camera,
     progress: &mut Progress,
 ) -> Result<Drawn<Picture>, Fault> {
-    // Draw band by band into the file where nothing goes over the whole frame.
+    // Draw band by band into the file, unless the renderer needs the whole frame at once.
     let counter = progress.counter();
     let tell = |done, of| counter.tell(DRAW, done, of);
     let picture = |engine: &dyn Engine| {

@@ -52,7 +52,7 @@ fn tell_times(
     let _ = std::io::stderr().write_all(timings.reported(form).as_bytes());
 }
 
-/// Pictures of smoke: what the user said, resolved.
+/// The job of `npr smoke`: its arguments, resolved and checked.
 struct Job<'a> {
     args: &'a SmokeArguments,
     source: Source,
@@ -62,10 +62,10 @@ struct Job<'a> {
     target: Target,
 }
 
-/// Where pictures go.
+/// The destination of the pictures.
 enum Target {
     One(Output),
-    /// By number.
+    /// One file for each picture, by its number.
     Many(Numbered),
 }
 
@@ -74,7 +74,7 @@ impl<'a> Job<'a> {
         args: &'a SmokeArguments,
         look: &crate::arguments::LookArguments,
     ) -> Result<Self, Fault> {
-        // Find what smokes, and which moments of it are drawn.
+        // Find the source of the smoke, and the moments that are drawn.
         let source = Source::of(args.source.as_deref().unwrap_or(Path::new("-")));
         let shots = Shots {
             frames: args.frames.map(|frames| (frames.first, frames.last)),
@@ -84,7 +84,7 @@ impl<'a> Job<'a> {
         };
         check_grid(&source, &shots)?;
 
-        // Find where pictures go, and how they look.
+        // Find the destination of the pictures, and their style.
         let target = Target::of(&output_path(args, &source)?)?;
         let external = args.drawing.allow_external.as_deref();
         let look = Look::resolve(look, external)?.with_smoke(&args.drawing.volumes);
@@ -105,7 +105,7 @@ impl Target {
         job::check_ending(path)?;
         match Numbered::of(path) {
             Some(numbered) => {
-                // The folder is known before the work is done.
+                // Check the folder before the work is done.
                 Output::of(&numbered.path(0))?;
                 Ok(Self::Many(numbered))
             }
@@ -113,7 +113,7 @@ impl Target {
         }
     }
 
-    /// Where the picture of a number goes.
+    /// The destination of the picture with a number.
     fn output(&self, number: u32) -> Result<Output, Fault> {
         match self {
             Self::One(output) => Ok(output.clone()),
@@ -135,7 +135,7 @@ impl Target {
     }
 }
 
-/// A grid is of a simulation alone.
+/// Refuses `--grid` where the source is not the built-in simulation.
 fn check_grid(source: &Source, shots: &Shots) -> Result<(), Fault> {
     let is_built_in = |path: &Path| matches!(VolumeSource::of(path), VolumeSource::BuiltIn(_));
     match source {
@@ -148,7 +148,8 @@ fn check_grid(source: &Source, shots: &Shots) -> Result<(), Fault> {
     }
 }
 
-/// The path asked for, or else the source's name: of a series, or a range of frames, with the number in it.
+/// The path that the user gave, or else one from the source's name, with `####` for the frame number where the source
+/// is a series or a range of frames is drawn.
 fn output_path(args: &SmokeArguments, source: &Source) -> Result<PathBuf, Fault> {
     if let (None, Source::File(path)) = (&args.output, source) {
         let is_range = args.frames.is_some_and(|frames| frames.first < frames.last);
@@ -160,10 +161,10 @@ fn output_path(args: &SmokeArguments, source: &Source) -> Result<PathBuf, Fault>
     job::output_path(args.output.as_deref(), source, "png")
 }
 
-/// From the source to the pictures.
+/// Computes the smoke, then draws and writes all pictures.
 fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Vec<PassTime>>, Fault> {
     if let Some(name) = &job.args.drawing.camera.camera {
-        // Volumes have no cameras: nobody waits for smoke to hear that.
+        // Volumes have no cameras, so fail before the smoke is computed.
         return Err(unknown_camera(name, &[]));
     }
     let limits = job.args.drawing.limits.limits();
@@ -221,7 +222,7 @@ fn volume_of(loaded: Loaded) -> Result<VolumeSource, Fault> {
     })
 }
 
-/// Where every picture goes; none over a file that smoke or look are made from.
+/// The destinations of all pictures. Refuses to write over a file that the smoke or the look is made from.
 fn outputs(job: &Job<'_>, film: &Film) -> Result<Vec<Output>, Fault> {
     let mut inputs = film.inputs.clone();
     inputs.extend(job.look.inputs());
@@ -259,7 +260,7 @@ fn camera(job: &Job<'_>, prepared: &Prepared, film: &Film) -> Result<Camera, Fau
     prepared.camera(&job.args.drawing, &all)
 }
 
-/// Draws and writes every picture; the times of their passes, added up.
+/// Draws and writes every picture, and gives the times of their passes, added up.
 fn draw_film(
     (job, engine): (&Job<'_>, &EngineChoice<'_>),
     prepared: &Prepared,
@@ -275,7 +276,7 @@ fn draw_film(
     };
     let keep_alpha = job.look.is_transparent();
     let screening = Screening::new(outputs, keep_alpha, progress.counter());
-    // An engine that takes over goes on where the other failed.
+    // An engine that takes over continues where the other one failed.
     let pictures = |engine: &dyn Engine| {
         let renderer = prepared.renderer(engine, &job.look.style, &options)?;
         screening.show_all(renderer, &film.frames, camera)
@@ -294,21 +295,21 @@ fn draw_film(
     })
 }
 
-/// Pictures on their way into files.
+/// The state of a film while its pictures are drawn and written.
 struct Screening<'a> {
     outputs: &'a [Output],
     keep_alpha: bool,
     counter: Counter,
-    /// How many are written.
+    /// Number of pictures that are written.
     done: Cell<usize>,
     failed: RefCell<Option<Fault>>,
-    /// What was drawn in another way than the style asks, once each.
+    /// Notices about what was drawn in another way than the style asks, each once.
     notices: RefCell<std::collections::BTreeSet<String>>,
     times: RefCell<Vec<PassTime>>,
 }
 
 impl<'a> Screening<'a> {
-    /// Pictures of which none is written.
+    /// The state before the first picture is written.
     fn new(outputs: &'a [Output], keep_alpha: bool, counter: Counter) -> Self {
         Self {
             outputs,
@@ -321,8 +322,8 @@ impl<'a> Screening<'a> {
         }
     }
 
-    /// Draws the smoke of every picture that is not written, and writes each while the next is drawn; ends early where
-    /// one cannot be written.
+    /// Draws every picture that is not written yet, and writes each while the next is drawn. Ends early where one
+    /// cannot be written.
     fn show_all(
         &self,
         mut renderer: Renderer<'_>,
@@ -341,7 +342,7 @@ impl<'a> Screening<'a> {
         Ok(())
     }
 
-    /// Writes the next picture; whether there was no fault.
+    /// Writes the next picture, and returns whether that succeeded.
     fn show(&self, frame: &Frame) -> bool {
         let number = self.done.get();
         let written = encoder::png(frame.size, &frame.rgba, self.keep_alpha).and_then(|bytes| {
@@ -443,7 +444,7 @@ mod tests {
         }
     }
 
-    /// Smoke of six pictures, each of its own.
+    /// The smoke of six pictures, which differs from picture to picture.
     fn puffs() -> Vec<Smoke> {
         let puff = |i| Smoke {
             spheres: vec![Sphere::new([i as f32 * 0.3 - 0.8, 0.0, 0.0], 0.4)],
@@ -452,7 +453,7 @@ mod tests {
         (0..6).map(puff).collect()
     }
 
-    /// Runs `work` with a film of [`puffs`] on its way into six files of a folder, and gives the files.
+    /// Runs `work` with a film of [`puffs`] that goes into six files of a folder, and gives the contents of the files.
     fn screened(
         work: impl FnOnce(&Screening<'_>, &dyn Fn(&dyn Engine) -> Result<(), RenderError>),
     ) -> Vec<Option<Vec<u8>>> {
@@ -532,7 +533,7 @@ mod tests {
             assert_eq!(fault.message, "the graphics device was lost: unplugged");
             assert_eq!(screening.done.get(), 2);
         });
-        // One picture of each device is whole, and there is nothing of the others.
+        // Each device finished one picture, and nothing is left of the others.
         assert!(files[..2] == wanted[..2]);
         assert!(files[2..].iter().all(Option::is_none));
     }

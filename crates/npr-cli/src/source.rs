@@ -1,4 +1,4 @@
-//! Where a scene comes from.
+//! The source of a scene: standard input or a file.
 
 use crate::ending::has_ending;
 use crate::fault::Fault;
@@ -13,7 +13,7 @@ use npr_smoke::file::is_volume;
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 
-/// Where a scene comes from.
+/// The source of a scene.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Source {
     /// Standard input.
@@ -29,9 +29,9 @@ pub struct Loaded {
     pub scene: Scene,
     /// Its format, by name or else by content.
     pub format: Option<Format>,
-    /// The volume that the file is, beside an empty scene.
+    /// The volume, where the source is one; the scene is empty then.
     pub volume: Option<VolumeSource>,
-    /// The scene's own file and all that it refers to.
+    /// The scene's own file and all files that it refers to.
     pub inputs: Vec<PathBuf>,
 }
 
@@ -45,7 +45,7 @@ impl Source {
         }
     }
 
-    /// The scene. What it refers to must lie below its own folder, or below `external`.
+    /// Loads the scene. Files that it refers to must lie below its own folder, or below `external`.
     pub fn load(&self, limits: &Limits, external: Option<&Path>) -> Result<Loaded, Fault> {
         match self {
             Self::Standard => load_standard(limits, external),
@@ -74,7 +74,7 @@ fn load_standard(limits: &Limits, external: Option<&Path>) -> Result<Loaded, Fau
 }
 
 fn load_file(path: &Path, limits: &Limits, external: Option<&Path>) -> Result<Loaded, Fault> {
-    // Hand a volume on as it is, beside an empty scene.
+    // Give the bytes of a volume as they are, with an empty scene.
     let bytes = read_file(path, limits.file_bytes)?;
     if has_volume_name(path) || is_volume(&bytes) {
         return Ok(Loaded {
@@ -100,13 +100,13 @@ fn load_file(path: &Path, limits: &Limits, external: Option<&Path>) -> Result<Lo
     })
 }
 
-/// Whether a file is a volume by its name, whatever is in it.
+/// Whether the extension of a path is that of a volume file.
 pub fn has_volume_name(path: &Path) -> bool {
     has_ending(path, "vdb") || has_ending(path, "npy")
 }
 
 impl Loaded {
-    /// Smoke of a source beside an empty scene.
+    /// A source of smoke with an empty scene.
     pub fn of_smoke(source: VolumeSource) -> Self {
         Self {
             scene: Scene::default(),
@@ -116,7 +116,7 @@ impl Loaded {
         }
     }
 
-    /// A volume called `name` in messages, beside an empty scene.
+    /// The bytes of a volume, called `name` in messages, with an empty scene.
     fn of_volume(name: String, bytes: Vec<u8>) -> Self {
         Self {
             scene: Scene {
@@ -130,7 +130,7 @@ impl Loaded {
     }
 }
 
-/// Files of a folder, and which of them were asked for.
+/// The files of a folder, with a record of those that were asked for.
 struct Recorder {
     folder: PathBuf,
     files: FolderResources,

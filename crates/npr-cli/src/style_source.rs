@@ -1,4 +1,4 @@
-//! Where a style comes from.
+//! The source of a style: a preset or a style file.
 
 use crate::fault::{Exit, Fault};
 use crate::input::read_file;
@@ -18,7 +18,8 @@ pub enum StyleSource {
 }
 
 impl StyleSource {
-    /// What the user meant: a text with a folder in it or with the ending .toml is a file.
+    /// The source that a text names. A text with a folder in it or with the extension .toml is a file, any other a
+    /// preset; `None` is the default preset.
     pub fn of(text: Option<&str>) -> Self {
         let text = text.unwrap_or(DEFAULT_PRESET);
         let path = Path::new(text);
@@ -40,7 +41,7 @@ impl StyleSource {
         }
     }
 
-    /// The style; its parents are looked for in its own folder and below, and in `external`.
+    /// Loads the style. Its parents are looked for in its own folder and below, and in `external`.
     pub fn load(&self, external: Option<&Path>) -> Result<Stated, Fault> {
         match self {
             Self::Preset(name) => {
@@ -52,7 +53,7 @@ impl StyleSource {
 }
 
 fn load_file(path: &Path, external: Option<&Path>) -> Result<Stated, Fault> {
-    // One byte more than a style may have, so that the reader of styles tells of its own limit.
+    // Read one byte more than a style may have, so that the parser of styles reports its own limit.
     let bytes = read_file(path, TEXT_BYTES_MAX as u64 + 1).map_err(|fault| match fault.exit {
         Exit::Failed => fault,
         _ => Fault::new(Exit::Usage, fault.message),

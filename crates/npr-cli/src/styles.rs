@@ -1,4 +1,4 @@
-//! `npr styles`: presets and style files.
+//! `npr styles`: lists, shows and checks presets and style files.
 
 use crate::arguments::StylesCommand;
 use crate::fault::{Exit, Fault};
@@ -6,7 +6,7 @@ use crate::output;
 use crate::style_source::StyleSource;
 use npr_stylesheet::{find_preset, presets, schema};
 
-/// Does what `npr styles` asks.
+/// Runs one of the commands of `npr styles`.
 pub fn styles(command: &StylesCommand) -> Result<(), Fault> {
     match command {
         StylesCommand::List => output::print(list().as_bytes()),

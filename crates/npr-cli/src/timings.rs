@@ -1,14 +1,14 @@
-//! How long a run took, told for people or for programs.
+//! The report of `--timings`, for people or for programs.
 
 use crate::arguments::TimingsForm;
 use npr_gpu::engine::PassTime;
 use serde::Serialize;
 use std::time::Duration;
 
-/// How long a run took.
+/// The times of a run.
 #[derive(Debug, Clone, Serialize)]
 pub struct Timings {
-    /// What drew.
+    /// Description of the engine that drew.
     engine: String,
     /// Steps of the run, in order.
     steps: Vec<Time>,
@@ -50,7 +50,7 @@ impl Timings {
         }
     }
 
-    /// The times as text that ends its last line.
+    /// The times as text that ends in a line break.
     pub fn reported(&self, form: TimingsForm) -> String {
         match form {
             TimingsForm::Table => self.table(),

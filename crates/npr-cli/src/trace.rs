@@ -1,4 +1,4 @@
-//! `npr trace`: bitmaps as curves.
+//! `npr trace`: turns bitmaps into curves.
 
 use crate::arguments::{TraceArguments, TracedForm, TracedFormat};
 use crate::ending::has_ending;
@@ -32,7 +32,7 @@ pub fn trace(args: &TraceArguments) -> Result<(), Fault> {
     Ok(())
 }
 
-/// One bitmap to trace. Everything that can be checked without reading it has been.
+/// One bitmap to trace. Everything that can be checked without reading it is already checked.
 struct TraceJob {
     source: Source,
     output: Output,
@@ -67,7 +67,7 @@ fn draw(
     progress.step("write", || job.output.write(&bytes))
 }
 
-/// What is traced.
+/// The decoded picture to trace: ink, or few colours.
 enum Traced {
     Ink(Bitmap),
     Colors(IndexPicture),
@@ -82,14 +82,14 @@ impl Traced {
     }
 }
 
-/// Reads what is traced; packed rows without holding their bytes.
+/// Reads the picture to trace. A binary PBM file is read without holding its bytes.
 fn load(
     job: &TraceJob,
     args: &TraceArguments,
     limits: &Limits,
     progress: &mut Progress,
 ) -> Result<Traced, Fault> {
-    // Read packed rows as they are, where the format has them.
+    // Read the packed rows of a binary PBM file as they are.
     let name = match &job.source {
         Source::Standard => "standard input".to_owned(),
         Source::File(path) => quoted(path),
@@ -141,7 +141,7 @@ fn found(bitmap: &Bitmap, args: &TraceArguments, form: TracedForm) -> Result<Vec
     }
 }
 
-/// What is to be done, one job a bitmap.
+/// Resolves the arguments into one job for each bitmap.
 fn resolve(args: &TraceArguments) -> Result<Vec<TraceJob>, Fault> {
     // Refuse to read standard input twice.
     let sources: Vec<Source> = args.bitmaps.iter().map(|path| Source::of(path)).collect();
@@ -158,7 +158,7 @@ fn resolve(args: &TraceArguments) -> Result<Vec<TraceJob>, Fault> {
     let mut taken = BTreeSet::new();
     let mut jobs = Vec::new();
     for source in sources {
-        // Refuse meshes of what has no inside or several colours.
+        // Refuse meshes of centre lines, and of layers in colour.
         let path = path_for(args, &source)?;
         let format = format_of(args.format, &path)?;
         if args.form.centreline && matches!(format.form(), TracedForm::Mesh(_)) {
@@ -191,7 +191,7 @@ fn colors_are_no_mesh() -> Fault {
     Fault::new(Exit::Usage, message)
 }
 
-/// Where the tracing of one bitmap goes.
+/// The output path for one bitmap.
 fn path_for(args: &TraceArguments, source: &Source) -> Result<PathBuf, Fault> {
     // Write several bitmaps into a folder.
     let asked = args.output.as_deref();
@@ -218,7 +218,7 @@ fn path_for(args: &TraceArguments, source: &Source) -> Result<PathBuf, Fault> {
     }
 }
 
-/// The format asked for, or else that of the name; svg on standard output.
+/// The format that the user gave, or else that of the path's extension; SVG on standard output.
 fn format_of(asked: Option<TracedFormat>, path: &Path) -> Result<TracedFormat, Fault> {
     if let Some(format) = asked {
         return Ok(format);

@@ -1,4 +1,4 @@
-//! The camera of a picture.
+//! Chooses the camera of a picture.
 
 use crate::arguments::{CameraArguments, Size};
 use crate::fault::{Exit, Fault};
@@ -9,11 +9,11 @@ use npr_render::{LineModel, Model, Smoke};
 /// Most cameras that a message lists.
 const LISTED_CAMERAS: usize = 5;
 
-/// What a camera is chosen by.
+/// A scene that a camera can be chosen for.
 pub trait Viewed {
     /// Cameras of the file with their names.
     fn cameras(&self) -> &[(String, Camera)];
-    /// Lowest and highest corner.
+    /// Lowest and highest corner of the bounding box, in world space.
     fn bounds(&self) -> ([f32; 3], [f32; 3]);
     /// A view of all of it, for a frame of width / height `aspect` and a vertical field of view in radians.
     fn framing(&self, aspect: f32, fov_y: f32) -> Camera;
@@ -77,7 +77,7 @@ fn camera_of_file(asked: &str, cameras: &[(String, Camera)]) -> Result<Camera, F
         .ok_or_else(|| unknown_camera(asked, cameras))
 }
 
-/// That there is no camera by a name or number among some.
+/// The fault for a camera name or number that `cameras` do not have.
 pub fn unknown_camera(asked: &str, cameras: &[(String, Camera)]) -> Fault {
     let listed: Vec<String> = cameras
         .iter()
@@ -96,13 +96,13 @@ pub fn unknown_camera(asked: &str, cameras: &[(String, Camera)]) -> Fault {
     )
 }
 
-/// The framing view, with what the user said in place of its own values; an eye alone looks at `middle`.
+/// The camera `framing` with the arguments in place of its own values. An eye without a target looks at `middle`.
 fn placed_camera(
     args: &CameraArguments,
     framing: Camera,
     middle: [f32; 3],
 ) -> Result<Camera, Fault> {
-    // Put what the user said in place of the framing view.
+    // Replace the values that the user gave.
     let target = if args.eye.is_some() {
         middle
     } else {

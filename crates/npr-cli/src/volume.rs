@@ -1,4 +1,4 @@
-//! Volumes that a command line names, turned into spheres that can be drawn.
+//! Turns the volumes that a command line names into spheres that can be drawn.
 
 mod fault;
 mod shots;
@@ -24,27 +24,27 @@ use npr_smoke::{Birthplace, PuffSettings, Puffs, Source, Volume, VolumeError};
 use npr_stylesheet::SmokeStyle;
 use std::path::PathBuf;
 
-/// What smoke is made of, and how.
+/// The arguments, style and limits that smoke is made by.
 #[derive(Debug, Clone, Copy)]
 pub struct Order<'a> {
-    /// What the user said about volumes.
+    /// The arguments about volumes.
     pub args: &'a VolumeArguments,
-    /// The style of the smoke, with what the user said in place of its own values.
+    /// The style of the smoke, with the arguments in place of its own values.
     pub style: &'a SmokeStyle,
-    /// What it may cost.
+    /// The limits on files and memory.
     pub limits: &'a Limits,
 }
 
 /// Smoke for one picture or many.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Film {
-    /// One for every picture, all in one space. At least one.
+    /// The smoke of every picture, at least of one. All lie in one space.
     pub frames: Vec<Smoke>,
-    /// The frame that the first picture shows.
+    /// Number of the frame that the first picture shows.
     pub first: u32,
-    /// The files that it was made from.
+    /// The files that the smoke was made from.
     pub inputs: Vec<PathBuf>,
-    /// What was guessed, mended or found missing, for the user.
+    /// Notices for the user about what was guessed, mended or found missing.
     pub notices: Vec<String>,
 }
 
@@ -61,7 +61,7 @@ impl Film {
     }
 }
 
-/// The smoke of a still picture, made as a step of the work; without smoke no step is shown. See [`still`].
+/// The smoke of a still picture, computed as a step of the work. Without smoke there is no step. See [`still`].
 pub fn step(
     progress: &mut Progress,
     order: &Order<'_>,
@@ -76,8 +76,8 @@ pub fn step(
     }))
 }
 
-/// The smoke of a still picture: that of the scene's own file, where it is a volume, and of every `--volume`; none
-/// without any.
+/// The smoke of a still picture: that of `own`, the scene itself where it is a volume, and that of every `--volume`.
+/// `None` where there is neither.
 pub fn still(order: &Order<'_>, own: Option<VolumeSource>) -> Result<Option<(Smoke, Film)>, Fault> {
     let own = own.map(|source| (source, None));
     let placed = order.args.volumes.iter();
@@ -99,7 +99,7 @@ pub fn still(order: &Order<'_>, own: Option<VolumeSource>) -> Result<Option<(Smo
     Ok(all)
 }
 
-/// Smoke with the middle of its lowest plane where the user wants it.
+/// The smoke, moved and scaled so that the middle of its lowest plane lies where the user placed it.
 fn placed_at(volume: &PlacedVolume, smoke: Smoke) -> Smoke {
     let Some((place, scale)) = volume.place else {
         return smoke;
@@ -109,10 +109,10 @@ fn placed_at(volume: &PlacedVolume, smoke: Smoke) -> Smoke {
     smoke.moved(foot, place.0, scale)
 }
 
-/// The smoke of a source at every moment asked for, followed from moment to moment; `tell` learns how far the work is.
+/// The smoke of a source at every moment asked for. Spheres follow the smoke from moment to moment. `tell` gets the
+/// numbers of finished and of all parts of the work.
 ///
-/// A simulation is followed from its first frame on, whatever frames are asked for: a frame looks the same alone and
-/// in a film.
+/// A simulation is always followed from its first frame on, so a frame looks the same alone and in a film.
 pub fn film(
     source: &VolumeSource,
     order: &Order<'_>,
@@ -132,7 +132,8 @@ pub fn film(
     }
 }
 
-/// The smoke of a simulation at every moment asked for, or at one that shows what it is.
+/// The smoke of a simulation at every moment asked for. Without a request, it is that of one frame that shows the
+/// smoke well.
 fn simulated(
     source: Source,
     order: &Order<'_>,
@@ -193,7 +194,7 @@ fn read_still(name: &str, bytes: &[u8], order: &Order<'_>, shots: &Shots) -> Res
     Ok(finished(vec![smoke], 1, volume.hottest(), notices))
 }
 
-/// The smoke of a series of files at every moment asked for, all frames where none are.
+/// The smoke of a series of files at every moment asked for. Without a request, it is that of all frames.
 fn read_series(
     files: &Numbered,
     order: &Order<'_>,
@@ -242,7 +243,7 @@ fn read_series(
     Ok(film)
 }
 
-/// Takes memory for the smoke of all pictures.
+/// Takes memory for the smoke of all pictures from the budget.
 fn take_frames(
     budget: &mut Budget,
     settings: &PuffSettings,
@@ -298,8 +299,8 @@ impl Order<'_> {
         }
     }
 
-    /// How spheres follow smoke that goes on by `step` frames at a time; `known` is where it comes from, if the user
-    /// does not say.
+    /// The settings by which spheres follow smoke that advances by `step` frames a picture. `known` is the birthplace
+    /// of particles where the user gives none.
     fn puffs(&self, step: f64, fps: f32, known: Birthplace) -> PuffSettings {
         let following = Following {
             step: step as f32,
@@ -311,7 +312,7 @@ impl Order<'_> {
     }
 }
 
-/// What to say where nothing is dense enough to be drawn.
+/// The notice about smoke that is nowhere dense enough to be drawn.
 fn thin_notice(peak: f32, style: &SmokeStyle) -> Option<String> {
     let threshold = style.puffs.threshold;
     let text = match peak {

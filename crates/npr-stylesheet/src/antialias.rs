@@ -1,4 +1,4 @@
-//! How edges are smoothed.
+//! The table `antialias` of a style: how edges are smoothed.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -1,4 +1,4 @@
-//! What lies behind the scene.
+//! The key `background` of a style: what lies behind the scene.
 
 use std::fmt;
 use std::str::FromStr;
@@ -24,7 +24,7 @@ pub enum Background {
     Image(String),
 }
 
-/// Why a text names no background.
+/// The error for a text that names no background.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("is neither a CSS colour, nor 'transparent', nor the path of a .png, .jpg or .jpeg image")]
 pub struct BackgroundError;

@@ -1,4 +1,4 @@
-//! How beams of light are said: what glows, in which colours, and what its light reaches.
+//! The table `beam` of a rule: parts that glow, in which colours, and how far their light reaches.
 
 use npr_core::geometry::Part;
 use npr_style::beam::BEAM_STOPS_MAX;
@@ -33,16 +33,16 @@ pub struct BeamStop {
     pub color: Color,
 }
 
-/// How a part glows instead of being a surface.
+/// The look of a part that glows instead of being a surface.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Beam {
-    /// What it does to what lies behind it.
+    /// The order in which its light lies over objects and their lines.
     pub overlap: BeamOverlap,
-    /// Width of the step between two colours.
+    /// Width of the step between two colours, as a share of the ramp, 0..1.
     pub softness: f32,
     /// Colours from the rim to the middle, 1 to 4.
     pub ramp: Vec<BeamStop>,
-    /// What its light adds to the ramp of what faces it.
+    /// What its light adds to the ramp of surfaces that face it, 0..10.
     pub light: f32,
     /// How far its light reaches, in half diagonals of the box around it.
     pub light_reach: f32,
@@ -89,7 +89,7 @@ impl Default for Beam {
 }
 
 impl Beam {
-    /// Makes a part of a model glow.
+    /// Turns a part of a model into this beam.
     pub fn apply_to(&self, part: &mut Part) {
         let solid = Part::OUTLINES | Part::INK | Part::HATCH | Part::HIGHLIGHTS | Part::CUTOUT;
         part.flags = part.flags & !solid
@@ -111,8 +111,8 @@ impl Beam {
 }
 
 impl Beam {
-    /// Colour of the light that the beam gives off: the mean of its colours by how much they cover, its greatest part
-    /// made 1. White where none of them shows.
+    /// Colour of the light that the beam gives off, in linear light: the mean of its colours weighted by alpha, scaled
+    /// so that the greatest channel is 1. White where none of the colours shows.
     pub fn light_color(&self) -> [f32; 3] {
         let sum = self.ramp.iter().fold([0.0f32; 3], |sum, stop| {
             let [r, g, b, a] = stop.color.linear();

@@ -1,4 +1,4 @@
-//! How much of a look is drawn: blends with another one.
+//! The table `blend` of a style: mixes a look with another one.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -40,7 +40,7 @@ impl Blend {
         self.amount < 1.0 || !self.mask.is_empty()
     }
 
-    /// Checks that there is something to blend with.
+    /// Checks that `with` names a preset.
     pub(crate) fn sanity_check(&self) -> Result<(), StyleError> {
         match preset::find(&self.with) {
             Ok(_) => Ok(()),
@@ -52,7 +52,8 @@ impl Blend {
     }
 }
 
-/// A pixel of two pictures in linear light, colours times alpha: `share` 0..1 of the first.
+/// Mixes a pixel of two pictures: `share`, 0..1, of the first and the rest of the second. Colours are linear light
+/// times alpha.
 pub fn blend(first: [f32; 4], second: [f32; 4], share: f32) -> [f32; 4] {
     std::array::from_fn(|i| second[i] + (first[i] - second[i]) * share)
 }

@@ -11,7 +11,7 @@ use crate::{Background, Color, Length};
 ///
 /// # Errors
 ///
-/// The first unknown key or value that does not fit, in the order of keys; without a place.
+/// The first unknown key or value that does not fit, in the order of keys, without its position in the text.
 pub(crate) fn check(table: &Table) -> Result<(), StyleError> {
     Node::root().map_or(Ok(()), |root| check_table(root, table, ""))
 }
@@ -71,7 +71,7 @@ fn check_value(node: Node, value: &Value, path: &str) -> Result<(), StyleError> 
         ));
     };
 
-    // Check what is in it.
+    // Check the value itself.
     check_words(*form, value, path)?;
     match value {
         Value::Table(table) => check_table(*form, table, path),
@@ -95,7 +95,7 @@ fn has_type(form: Node, value: &Value) -> bool {
     }
 }
 
-/// What a form takes, in words.
+/// The type of value that a form takes, in words.
 fn type_name(form: Node) -> Option<&'static str> {
     let names = [
         ("integer", "a whole number"),
@@ -124,7 +124,7 @@ fn found_name(value: &Value) -> &'static str {
 }
 
 fn check_words(form: Node, value: &Value, path: &str) -> Result<(), StyleError> {
-    // Accept what is one of the words, and anything where there are none.
+    // Accept the allowed words, and any value where no words are listed.
     let words = form.words();
     let is_value = |word: &&serde_json::Value| match value {
         Value::String(text) => word.as_str() == Some(text),
@@ -135,7 +135,7 @@ fn check_words(form: Node, value: &Value, path: &str) -> Result<(), StyleError> 
         return Ok(());
     }
 
-    // Name the words that would do.
+    // List the allowed words.
     let allowed = words
         .iter()
         .map(|word| plain(word))
@@ -150,7 +150,7 @@ fn check_words(form: Node, value: &Value, path: &str) -> Result<(), StyleError> 
     ))
 }
 
-/// A word without its quotes, or a number.
+/// The text of an allowed word without quotes, or of an allowed number.
 fn plain(word: &serde_json::Value) -> String {
     word.as_str()
         .map_or_else(|| word.to_string(), str::to_owned)
@@ -170,7 +170,7 @@ fn check_list(form: Node, entries: &[Value], path: &str) -> Result<(), StyleErro
         .try_for_each(|(i, entry)| check_value(node, entry, &join(path, &i.to_string())))
 }
 
-/// Checks a range; what is no number lies in none.
+/// Checks that a number lies in its range, which NaN and infinity never do.
 fn check_number(form: Node, value: f64, path: &str) -> Result<(), StyleError> {
     let (min, max) = form.range();
     if value.is_finite() && (min..=max).contains(&value) {

@@ -25,7 +25,7 @@ pub struct Color {
     pub a: u8,
 }
 
-/// Why a text is no colour.
+/// The error for a text that is no colour.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("is not a CSS colour such as #1e1a18 or saddlebrown")]
 pub struct ColorError;
@@ -41,7 +41,7 @@ impl Color {
         Self { r, g, b, a: 255 }
     }
 
-    /// A colour of three sRGB bytes that covers as much as the fourth says.
+    /// A colour of three sRGB bytes and a fourth one for straight alpha.
     pub const fn rgba(r: u8, g: u8, b: u8, a: u8) -> Self {
         Self { r, g, b, a }
     }

@@ -1,4 +1,4 @@
-//! What no single value of a style shows: order, contradictions, missing companions.
+//! Checks of a style that involve more than one value: order, contradictions, values that need another one.
 
 use crate::error::{Problem, StyleError};
 use crate::id_map::color_of;
@@ -9,7 +9,7 @@ use crate::ramp::{Stop, first_unsorted};
 use crate::{OutlineMethod, Rule, Style, Width, WidthSource};
 
 impl Style {
-    /// Checks what no single value shows: order, contradictions, missing companions.
+    /// Checks everything that involves more than one value: order, contradictions, values that need another one.
     ///
     /// Reading does this already; call it after changing fields by hand.
     ///
@@ -17,7 +17,7 @@ impl Style {
     ///
     /// [`StyleError::Value`] for the first key that contradicts another.
     pub fn sanity_check(&self) -> Result<(), StyleError> {
-        // Check what the style itself says.
+        // Check the style's own values.
         self.light.sanity_check()?;
         self.blend.sanity_check()?;
         self.check_trails()?;
@@ -30,7 +30,7 @@ impl Style {
         let mut words = self.lettering.iter().enumerate();
         words.try_for_each(|(i, words)| words.check(i))?;
 
-        // Check what each rule says.
+        // Check the values of each rule.
         self.rule.iter().enumerate().try_for_each(|(i, rule)| {
             check_method(rule.line.method, i)?;
             check_direction(rule.ink.direction, &format!("rule.{i}.ink.direction"))?;
@@ -50,7 +50,7 @@ impl Style {
         })
     }
 
-    /// Refuses more trails than can be told apart.
+    /// Refuses more different trails than frames can tell apart, [`TRAILS_MAX`].
     fn check_trails(&self) -> Result<(), StyleError> {
         if self.trails().len() <= TRAILS_MAX {
             return Ok(());
@@ -64,7 +64,7 @@ impl Style {
         ))
     }
 
-    /// Checks the maps, and that rules name ids that there are.
+    /// Checks the id maps, and that rules name only ids that exist.
     fn check_ids(&self) -> Result<(), StyleError> {
         // Check every map by itself.
         let mut maps = self.id_map.iter().enumerate();
@@ -112,7 +112,7 @@ fn check_ramp(stops: &[Stop], key: &str) -> Result<(), StyleError> {
     }
 }
 
-/// Strokes cannot follow a direction of no length.
+/// Refuses a direction of strokes with length 0.
 fn check_direction(direction: Option<[f32; 3]>, key: &str) -> Result<(), StyleError> {
     match direction {
         Some([0.0, 0.0, 0.0]) => Err(StyleError::unfit(key, "points nowhere")),
@@ -120,7 +120,7 @@ fn check_direction(direction: Option<[f32; 3]>, key: &str) -> Result<(), StyleEr
     }
 }
 
-/// A part cannot have a method that works on whole pictures.
+/// Refuses a line method in a rule that works on whole pictures only.
 fn check_method(method: Option<OutlineMethod>, rule: usize) -> Result<(), StyleError> {
     match method {
         None
@@ -153,7 +153,7 @@ fn check_width(width: &Width) -> Result<(), StyleError> {
         ));
     }
 
-    // Refuse a source of widths that is not there.
+    // Refuse a source of widths that the style does not give.
     match width.source {
         WidthSource::Texture if width.texture.is_none() => Err(StyleError::unfit(
             "line.width.source",

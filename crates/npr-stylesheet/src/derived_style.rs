@@ -1,11 +1,11 @@
-//! Looks made of a look: without its lines, and the one that it is blended with.
+//! Styles derived from a style: without its lines, and the one that it is blended with.
 
 use crate::{
     Blend, LineBackground, OutlineMethod, Rule, RuleBackground, RuleShade, Style, StyleError,
 };
 
 impl Style {
-    /// The look of everything but what is drawn over it: no lines, trails, words, and no other look blended in.
+    /// The style without everything that is drawn over surfaces: no lines, trails or lettering, and no blend.
     pub fn without_lines(&self) -> Self {
         let mut style = Self {
             blend: Blend::default(),
@@ -22,14 +22,14 @@ impl Style {
         style
     }
 
-    /// The look that this one is blended with: its preset, on the background, under the lights and with the beams and
-    /// painted-over colours of this one.
+    /// The style that this one is blended with: the preset `blend.with`, with the background, lights, antialiasing, id
+    /// maps, beams and replaced colours of this style.
     ///
     /// # Errors
     ///
-    /// [`StyleError::UnknownPreset`] where `blend.with` was changed by hand to what is none.
+    /// [`StyleError::UnknownPreset`] where `blend.with` was changed by hand and names no preset.
     pub fn blended_with(&self) -> Result<Self, StyleError> {
-        // Keep of the rules what the other look shares: painted-over colours and beams.
+        // Keep of each rule what the other style shares: replaced colours and beams.
         let other = Self::preset(&self.blend.with)?;
         let own = |rule: &Rule| Rule {
             matching: rule.matching.clone(),

@@ -1,4 +1,4 @@
-//! How the line mask is found on the images of depth, normal and id.
+//! The table `detect` of a style: how the line mask is found on the images of depth, normal and id.
 
 use std::fmt;
 
@@ -118,7 +118,7 @@ impl Detect {
     }
 }
 
-/// Lines are thinner than the mask that decides where they may be.
+/// The warning about lines that are thinner than the lines of the mask.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WidthWarning {
     /// Thickness of a mask line, in frame pixels.

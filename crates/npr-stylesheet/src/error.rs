@@ -1,8 +1,8 @@
-//! What can be wrong with a style.
+//! The errors of styles.
 
 use std::fmt;
 
-/// A place in a text.
+/// A position in a text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SourceLocation {
     /// Line, counted from 1.
@@ -21,15 +21,15 @@ impl fmt::Display for SourceLocation {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Problem {
-    /// It is of another kind than the key takes.
+    /// The value has another type than the key takes.
     #[error("is {found}, but must be {expected}")]
     WrongType {
-        /// What the key takes.
+        /// The types that the key takes, in words.
         expected: String,
-        /// What the file holds.
+        /// The type of the value, in words.
         found: &'static str,
     },
-    /// It is a number outside its range.
+    /// The value is a number outside its range.
     #[error("is {}, but must {}", number(*value), within(*min, *max))]
     OutOfRange {
         /// The number as read.
@@ -39,15 +39,15 @@ pub enum Problem {
         /// Largest allowed.
         max: f64,
     },
-    /// It is none of the words, or numbers, that the key takes.
+    /// The value is none of the words or numbers that the key takes.
     #[error("is {value}, but must be one of {allowed}")]
     NotOneOf {
         /// The value as read.
         value: String,
-        /// All that are allowed, with commas.
+        /// All allowed values, with commas between.
         allowed: String,
     },
-    /// It is a list of the wrong length.
+    /// The value is a list of the wrong length.
     #[error("has {count} entries, but must have {min} to {max}")]
     Count {
         /// Entries as read.
@@ -57,13 +57,13 @@ pub enum Problem {
         /// Most allowed.
         max: u64,
     },
-    /// It lacks a key that has no default.
+    /// The value is a table that lacks a key without a default.
     #[error("lacks '{missing}'")]
     Lacks {
         /// The absent key.
         missing: String,
     },
-    /// It is text that cannot be read, or it contradicts another value.
+    /// The value is a text that cannot be read, or it contradicts another value.
     #[error("{reason}")]
     Unfit {
         /// A predicate for the key: "is not a CSS colour".
@@ -96,7 +96,7 @@ pub enum StyleError {
     UnknownKey {
         /// The key from the top, with dots.
         key: String,
-        /// Where it stands, if it came from the text at hand.
+        /// Position of the key, if it is in the text that was read.
         place: Option<SourceLocation>,
         /// The valid key most like it.
         nearest: Option<String>,
@@ -106,7 +106,7 @@ pub enum StyleError {
     Value {
         /// The key from the top, with dots.
         key: String,
-        /// Where it stands, if it came from the text at hand.
+        /// Position of the key, if it is in the text that was read.
         place: Option<SourceLocation>,
         /// What is wrong with it.
         problem: Problem,
@@ -124,9 +124,9 @@ pub enum StyleError {
     PresetVersion {
         /// The preset.
         name: &'static str,
-        /// What stood after the `@`.
+        /// The text after the `@`.
         asked: String,
-        /// The version there is.
+        /// The newest version.
         newest: u32,
     },
     /// A parent named in `extends` could not be read.
@@ -134,7 +134,7 @@ pub enum StyleError {
     Load {
         /// The parent as named.
         parent: String,
-        /// What the caller's loader said.
+        /// The reason that the caller's loader gave.
         reason: String,
     },
     /// A parent named in `extends` is itself wrong.
@@ -151,7 +151,7 @@ pub enum StyleError {
         /// The parent that came up again.
         parent: String,
     },
-    /// The parents of the parents are too many.
+    /// The style has too many parents, parents of parents included.
     #[error("style extends more than {limit} others")]
     TooManyParents {
         /// Most allowed.
@@ -171,15 +171,15 @@ pub enum StyleError {
     NoEntry {
         /// The list.
         list: String,
-        /// What stands in place of the entry's number.
+        /// The text in place of the entry's number.
         entry: String,
-        /// Entries that it has.
+        /// Number of entries of the list.
         count: usize,
     },
 }
 
 impl StyleError {
-    /// The error about `key` without a place.
+    /// The error about `key`, without its position.
     pub(crate) fn value(key: impl Into<String>, problem: Problem) -> Self {
         Self::Value {
             key: key.into(),
@@ -198,7 +198,7 @@ impl StyleError {
         )
     }
 
-    /// The error with the place that `find` gives for its key, where it is about one.
+    /// The error with the position that `find` gives for its key, where the error is about a key.
     pub(crate) fn placed(mut self, find: impl FnOnce(&str) -> Option<SourceLocation>) -> Self {
         if let Self::UnknownKey { key, place, .. } | Self::Value { key, place, .. } = &mut self {
             *place = find(key);
@@ -220,7 +220,7 @@ fn entries(count: usize) -> String {
     }
 }
 
-/// How an override names what a list has, or fills a list that has nothing.
+/// An example of an override that names an entry of a list, or fills an empty list.
 fn form_of_entry(list: &str, count: usize) -> String {
     let example = match list {
         "rule" => "{ match = { material = 'Skin*' }, line = { on = false } }",
@@ -237,9 +237,9 @@ fn form_of_entry(list: &str, count: usize) -> String {
     }
 }
 
-/// A number in few characters, whatever its size.
+/// A number as short text, in scientific form where it is very large or small.
 fn number(value: f64) -> String {
-    // Styles hold single precision: 1.3 of them must not come out as 1.2999999523162842.
+    // Styles hold single precision: a value of 1.3 must not be printed as 1.2999999523162842.
     let single = value as f32;
     let [plain, scientific] = match f64::from(single) == value {
         true => [single.to_string(), format!("{single:e}")],
@@ -253,7 +253,7 @@ fn number(value: f64) -> String {
     }
 }
 
-/// What a number must do to lie within bounds, of which either may be missing.
+/// The predicate for a number within bounds, such as `lie in 0..1`. An infinite bound is left out.
 fn within(min: f64, max: f64) -> String {
     match (min.is_finite(), max.is_finite()) {
         (true, true) => format!("lie in {}..{}", number(min), number(max)),

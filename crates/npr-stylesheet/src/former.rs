@@ -1,16 +1,16 @@
-//! Keys that were called otherwise: former names are still read.
+//! Renamed keys: styles may still use the former names.
 
 use toml::{Table, Value};
 
 use crate::key::without_rule;
 
-/// Former names of keys, each with the name of today in the same table.
+/// Renamed keys: the full former key, and the current name in the same table.
 const FORMER: [(&str, &str); 2] = [
     ("line.kinds.border", "boundary"),
     ("line.paint.kinds.border", "boundary"),
 ];
 
-/// The name of today of the key at `path`, where that is a former name, in the style or a rule.
+/// The current name of the key at `path`, where that is a former key of the style or of a rule; else `None`.
 pub(crate) fn name_of_today(path: &[&str]) -> Option<&'static str> {
     let key = path.join(".");
     let key = without_rule(&key).unwrap_or(&key);
@@ -20,9 +20,9 @@ pub(crate) fn name_of_today(path: &[&str]) -> Option<&'static str> {
         .map(|(_, name)| *name)
 }
 
-/// Gives the keys of a style file their names of today, and says which had former names.
+/// Renames the former keys of a style file to their current names, and returns the former keys that it had.
 ///
-/// Where both names are there, the one of today counts. O(keys).
+/// Where both names are present, the current one counts. O(keys).
 pub(crate) fn rename(table: &mut Table) -> Vec<String> {
     let mut renamed = Vec::new();
     for (former, name) in FORMER {
@@ -43,7 +43,7 @@ pub(crate) fn rename(table: &mut Table) -> Vec<String> {
     renamed
 }
 
-/// Renames the last key of a path, where it is there.
+/// Renames the last key of a path, and returns whether it was there.
 fn rename_in(table: &mut Table, path: &[&str], name: &str) -> bool {
     match path {
         [former] => match table.remove(*former) {
@@ -61,7 +61,7 @@ fn rename_in(table: &mut Table, path: &[&str], name: &str) -> bool {
     }
 }
 
-/// What to tell the user of a key with a former name.
+/// The notice about a key that was given under its former name.
 pub(crate) fn notice(former: &str) -> String {
     let path: Vec<&str> = former.split('.').collect();
     let name = name_of_today(&path).unwrap_or_default();
@@ -73,7 +73,7 @@ pub(crate) fn notice(former: &str) -> String {
 mod tests {
     use crate::{Color, Occasion, Output, Stated, Style};
 
-    /// A style file, read, with what is told of its keys.
+    /// The style of a file, with the notices about its keys.
     fn read(text: &str) -> (Style, Vec<String>) {
         let stated = Stated::from_toml(text, &|_| Err(String::new())).expect("a style");
         (stated.style().clone(), reported(&stated))

@@ -1,4 +1,4 @@
-//! Which highlights surfaces have.
+//! The table `highlight` of a style: which highlights surfaces have.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -153,7 +153,7 @@ impl Highlight {
 }
 
 impl RuleHighlight {
-    /// Whether it gives parts a highlight that they may lack without it.
+    /// Whether the rule turns on any highlight.
     pub fn may_show(&self) -> bool {
         let on = [self.back.on, self.streak.on].contains(&Some(true));
         on || self.edge.is_some_and(|edge| edge != Edge::Off)

@@ -53,12 +53,13 @@ fn any() -> String {
     "*".to_owned()
 }
 
-/// The colour that a rule names instead of an id.
+/// The colour of a rule's pattern such as `#ff8000`; `None` for a pattern of names.
 pub(crate) fn color_of(pattern: &str) -> Option<Color> {
     pattern.starts_with('#').then(|| pattern.parse().ok())?
 }
 
-/// Whether a rule's pattern matches a part that ids have these names for; none where it belongs to no region.
+/// Whether a rule's pattern matches a part. `names` are those of the region that the part belongs to; empty where it
+/// belongs to none.
 ///
 /// `*` matches all parts, `?*` those with an id, and an empty pattern those without.
 pub(crate) fn matches(pattern: &str, names: &[String]) -> bool {
@@ -71,19 +72,19 @@ pub(crate) fn matches(pattern: &str, names: &[String]) -> bool {
 }
 
 impl IdMap {
-    /// Whether it lies on a part, unless a later map does.
+    /// Whether the patterns of the map match a part. Where several maps match, the last one counts.
     pub fn lies_on(&self, material: &str, object: &str) -> bool {
         glob::matches(&self.material, material) && glob::matches(&self.object, object)
     }
 
-    /// Refuses maps without a picture, names that rules cannot say, and colours with two names.
+    /// Refuses maps without a picture, names that rules cannot use, and colours with two names.
     pub(crate) fn check(&self, key: &str) -> Result<(), StyleError> {
         // Refuse a map without a picture.
         if self.image.is_empty() {
             return Err(StyleError::unfit(format!("{key}.image"), "names no file"));
         }
 
-        // Refuse names that rules cannot say, and colours that tell no regions apart.
+        // Refuse names that rules cannot use, and colours that are not opaque or have two names.
         let mut known: BTreeMap<[u8; 3], &str> = BTreeMap::new();
         for (i, id) in self.ids.iter().enumerate() {
             let unfit = |of: &str, reason: String| {

@@ -1,4 +1,4 @@
-//! The regions that a style tells apart on its id maps.
+//! The regions of id maps that a style tells apart.
 
 use std::collections::BTreeSet;
 
@@ -10,7 +10,7 @@ use crate::{Color, IdMap, Style};
 pub struct IdRegion {
     /// Its colour, sRGB bytes.
     pub color: [u8; 3],
-    /// What rules may call it: its name, if it has one, and its colour as `#rrggbb`.
+    /// Its names in rules: its own name, if it has one, and its colour as `#rrggbb`.
     pub names: Vec<String>,
 }
 
@@ -44,8 +44,8 @@ impl Style {
         regions
     }
 
-    /// The pictures of the id maps: key and name as the style has them, each name where it stands first. Callers load
-    /// them.
+    /// The pictures of the id maps, as pairs of key and picture name. Each name is listed once, with the first key
+    /// that has it. The caller loads the pictures.
     pub fn id_map_pictures(&self) -> Vec<(String, &str)> {
         let mut named: Vec<(String, &str)> = Vec::new();
         for (i, map) in self.id_map.iter().enumerate() {

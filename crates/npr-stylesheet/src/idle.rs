@@ -1,4 +1,4 @@
-//! Keys that cannot act where a style is drawn, each with the reason.
+//! The notices about keys of a style that have no effect, each with the reason.
 
 mod case;
 mod table;
@@ -11,12 +11,12 @@ use crate::key::lies_in;
 use case::Case;
 use table::{ENTRIES, Why};
 
-/// Longest notice, in characters: what a line on a terminal's error output may hold beside the command's own words.
+/// Longest notice, in characters. With the command's own prefix it fits on one line of standard error.
 const NOTICE_LENGTH: usize = 270;
 
 impl Stated {
-    /// What to tell the user of stated keys: which have former names, and which cannot act on an occasion, each key
-    /// once, those of one reason together.
+    /// The notices about stated keys: those given under former names, and those that have no effect on an occasion. A
+    /// key without effect is named once, together with others that have the same reason.
     ///
     /// ```
     /// use npr_stylesheet::{Facts, Occasion, Output, Stated};
@@ -53,7 +53,7 @@ impl Stated {
             .collect()
     }
 
-    /// Why a key of the style cannot act on an occasion, if it cannot.
+    /// The reason why a key of the style has no effect on an occasion; `None` where it has an effect.
     pub fn idle_reason(&self, key: &str, occasion: &Occasion) -> Option<String> {
         let case = Case::new(self.style(), key, occasion);
         let entry = ENTRIES.iter().find(|entry| {
@@ -67,7 +67,8 @@ impl Stated {
     }
 }
 
-/// Whether a key is the one of a pattern, lies within it, or follows it where that ends in `*`.
+/// Whether a pattern covers a key. It covers the key of its name and all keys within that table or list; where it ends
+/// in `*`, it covers all keys that begin with what stands before.
 fn covers(pattern: &str, key: &str) -> bool {
     match pattern.strip_suffix('*') {
         Some(beginning) => key.starts_with(beginning),
@@ -75,7 +76,7 @@ fn covers(pattern: &str, key: &str) -> bool {
     }
 }
 
-/// Notices that name all keys of one reason; as few as lines have room for.
+/// The notices that name all keys with one reason, as few as their greatest length allows.
 fn sentences(keys: &[&str], by: &str, why: &str) -> Vec<String> {
     let mut reported = Vec::new();
     let mut rest = keys;

@@ -1,4 +1,4 @@
-//! Which parts of the shade are drawn with the pen: solid ink, hatching, both or none.
+//! The table `ink` of a style: shade that is drawn with the pen, as solid ink, hatching, both or none.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -1,20 +1,20 @@
-//! Keys with dots, from the top of a style.
+//! Dotted keys of a style, such as `line.width.base`.
 
 use toml::Value;
 
-/// A key of a rule as the style itself has it.
+/// The key of a rule without its prefix `rule.N.`; `None` for other keys.
 pub(crate) fn without_rule(key: &str) -> Option<&str> {
     let (_, key) = key.strip_prefix("rule.")?.split_once('.')?;
     Some(key)
 }
 
-/// Whether a key with dots is another one, or a key of the table or list at that one.
+/// Whether a dotted key is `outer` itself, or lies within the table or list at `outer`.
 pub(crate) fn lies_in(key: &str, outer: &str) -> bool {
     let rest = key.strip_prefix(outer);
     rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
 }
 
-/// The value at a key with dots, if there is one.
+/// The value at a dotted key, if there is one.
 pub(crate) fn at<'a>(value: &'a Value, key: &str) -> Option<&'a Value> {
     key.split('.').try_fold(value, entry)
 }

@@ -13,26 +13,26 @@ pub const TEXT_BYTES_MAX: usize = 1 << 20;
 /// Most parents that a style may have, parents of parents included.
 pub const PARENTS_MAX: usize = 64;
 
-/// Most dots that one line may hold: keys nest a level a dot, and the TOML reader recurses over levels.
+/// Most dots in a line. Every dot nests a key one level deeper, and the TOML parser recurses over levels.
 const DOTS_MAX: usize = 1000;
 
-/// Lists that add up where a style is laid over another one.
+/// Lists that are appended to those of a parent instead of replacing them.
 const ADDED_UP: [&str; 2] = ["rule", "id_map"];
 
-/// Finds the text of a parent by its name.
+/// A function that finds the text of a parent by its name.
 type Load<'a> = &'a dyn Fn(&str) -> Result<String, String>;
 
 /// A style file that was read.
 pub(crate) struct Read {
-    /// The style, over its parents.
+    /// The style, merged over its parents.
     pub style: Style,
     /// The keys that stand in the file or its parents, without those of presets.
     pub stated: Table,
-    /// Its keys under former names.
+    /// Keys that it or its parents give under former names.
     pub former: Vec<String>,
 }
 
-/// The style of `text` over its parents; see [`Style::from_toml`].
+/// Reads the style of `text` and merges it over its parents; see [`Style::from_toml`].
 pub(crate) fn read(text: &str, load: Load<'_>) -> Result<Read, StyleError> {
     let mut stack = Stack {
         load,
@@ -67,27 +67,28 @@ struct Stack<'a> {
     load: Load<'a>,
     open: Vec<String>,
     loaded: usize,
-    /// Keys under former names, of all files.
+    /// Keys that any of the files gives under former names.
     former: Vec<String>,
 }
 
-/// A style with its parents, as tables.
+/// A style merged over its parents, as TOML tables.
 #[derive(Default)]
 struct Flat {
     /// All keys.
     all: Table,
-    /// Those that stand in no preset; entries of presets are empty, so that others keep their numbers.
+    /// Keys that are in no preset. List entries of presets are empty tables here, so that other entries keep their
+    /// numbers.
     stated: Table,
 }
 
 impl Flat {
-    /// Lays `upper` over it.
+    /// Merges `upper` over this style.
     fn merge(&mut self, upper: Self) {
         merge(&mut self.all, upper.all);
         merge(&mut self.stated, upper.stated);
     }
 
-    /// This style as one that nobody stated: a preset.
+    /// The style as that of a preset, whose keys do not count as stated.
     fn of_preset(mut self) -> Self {
         let stated = std::mem::take(&mut self.stated).into_iter();
         let added_up = stated.filter_map(|(key, value)| match value {
@@ -138,7 +139,7 @@ impl Stack<'_> {
             .map_err(|source| in_parent(name, source));
         self.open.pop();
 
-        // Leave behind what describes the parent alone; nobody stated what presets say.
+        // Remove keys that describe the parent alone. Keys of presets do not count as stated.
         let mut flat = flat?;
         if preset::is_name(name) {
             flat = flat.of_preset();
@@ -197,7 +198,7 @@ fn parse(text: &str) -> Result<Table, StyleError> {
         });
     }
 
-    // Read the rest, and say where it is not TOML.
+    // Parse the text, and report where it is not TOML.
     let parsed = guard(|| text.parse::<Table>()).map_err(|stopped| StyleError::Syntax {
         place: None,
         message: stopped.to_string(),
@@ -219,7 +220,8 @@ fn names(extends: Option<Value>) -> Vec<String> {
     }
 }
 
-/// Lays `upper` over `lower`: tables merge, lists of `rule` and `id_map` add up, anything else replaces.
+/// Merges `upper` over `lower`: tables merge key by key, the lists `rule` and `id_map` are appended, any other value
+/// replaces the lower one.
 pub(crate) fn merge(lower: &mut Table, upper: Table) {
     for (key, value) in upper {
         match (lower.get_mut(&key), value) {

@@ -1,4 +1,4 @@
-//! Words over the picture: sound effects and captions.
+//! The list `lettering` of a style: words over the picture, such as sound effects and captions.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::error::StyleError;
 use crate::{Color, Length, Unit};
 
-/// Most words of a style.
+/// Most entries of `lettering` in a style.
 pub const LETTERING_MAX: usize = 64;
 
 /// A band around letters.
@@ -111,7 +111,7 @@ fn default_color() -> Color {
 }
 
 impl Lettering {
-    /// Words in a font as they come without any other wish.
+    /// Words in a font, with defaults for everything else.
     pub fn new(text: &str, font: &str) -> Self {
         Self {
             text: text.to_owned(),
@@ -137,7 +137,7 @@ impl Lettering {
         [&self.outline].into_iter().chain(&self.second_outline)
     }
 
-    /// Refuses an empty font name, and lengths of the scene or being hidden by it without a place in it.
+    /// Refuses an empty font name. Refuses lengths in world units, and `hidden`, without an anchor.
     pub(crate) fn check(&self, index: usize) -> Result<(), StyleError> {
         // Refuse words without a font.
         let unfit = |key: &str, reason: &str| {
@@ -150,7 +150,7 @@ impl Lettering {
             return unfit("font", "names no file");
         }
 
-        // Refuse lengths in the scene, and hiding by it, for words that have no place there.
+        // Refuse lengths in world units, and `hidden`, for words without an anchor.
         let needs_place = |length: Length| length.unit == Unit::World && self.anchor.is_none();
         let reason = "is in world units, but the words have no anchor";
         let second = self.second_outline.as_ref();

@@ -1,7 +1,7 @@
-//! What a picture should look like, as data.
+//! The look of a picture, as data.
 //!
-//! [`Style`] is the only description of a look: a tree of plain structs that style files, overrides,
-//! presets and the JSON Schema ([`schema()`]) all come from. What is drawn by it is the arithmetic of `npr-style`.
+//! [`Style`] is the only description of a look: a tree of plain structs that style files, overrides, presets and the
+//! JSON Schema ([`schema()`]) all come from. The arithmetic that draws by it is in `npr-style`.
 //!
 //! ```
 //! use npr_stylesheet::{Length, Style, Unit};

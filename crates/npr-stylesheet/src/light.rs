@@ -1,4 +1,4 @@
-//! The lights that tones are drawn by: a main one, more of several kinds, and those of the file.
+//! The table `light` of a style: a main light, more of several kinds, and those of the file.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -198,13 +198,13 @@ impl Light {
         Ok(())
     }
 
-    /// The sky that the scene hides, where there is one that shines.
+    /// The first sky with an intensity above 0 that the scene may hide, if there is one.
     pub fn hidden_sky(&self) -> Option<&ExtraLight> {
         let mut extra = self.extra.iter();
         extra.find(|light| light.kind == LightShape::Sky && light.shadow && light.intensity > 0.0)
     }
 
-    /// The name of the picture of the sky; empty where there is none that shines.
+    /// The picture name of the first sky that has one and an intensity above 0; empty where there is none.
     pub fn sky_image(&self) -> &str {
         let mut extra = self.extra.iter();
         let is_sky = |light: &&ExtraLight| light.kind == LightShape::Sky && light.intensity > 0.0;

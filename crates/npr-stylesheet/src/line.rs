@@ -1,4 +1,4 @@
-//! Which lines are drawn, and with what.
+//! The table `line` of a style: which lines are drawn, and with what.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -41,7 +41,7 @@ pub enum OutlineMethod {
 }
 
 impl OutlineMethod {
-    /// How its lines are found where they are strokes of a line drawing.
+    /// How a method that draws the strokes of a line drawing finds its lines; `None` for other methods.
     pub const fn source(self) -> Option<LineSource> {
         match self {
             Self::Curves => Some(LineSource::Edges),

@@ -1,4 +1,4 @@
-//! How lines mind what lies behind them.
+//! The table `line.background` of a style: how lines adapt to what lies behind them.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -199,7 +199,7 @@ impl LineBackground {
             };
         }
 
-        // Say by how much contrast lines read, and what they start from.
+        // Set the contrast that lines must have, and the colour that they start from.
         let (measure, target) = match self.measure {
             Measure::Lightness => (backdrop::Rule::LIGHTNESS, self.lightness),
             Measure::Wcag => (backdrop::Rule::WCAG, self.ratio),

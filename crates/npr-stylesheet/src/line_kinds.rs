@@ -1,4 +1,4 @@
-//! The kinds of line as styles have them: which are drawn, and which have a colour of their own.
+//! The kinds of line in a style: which are drawn, and which have a colour of their own.
 
 use npr_core::line_kind::{COLORED_KINDS, Kind, KindSet};
 use schemars::JsonSchema;
@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::Color;
 use crate::overlay::Over;
 
-/// Declares both tables from one entry a kind: where its lines are, and whose its colour is.
+/// Declares both tables from one entry for each kind: the text of its key in [`Kinds`], then that in [`KindColors`].
 macro_rules! kind_tables {
     ($($(#[doc = $doc:literal])+ $key:ident: $kind:ident, $of:literal;)+) => {
         /// The kinds of line.
@@ -24,7 +24,7 @@ macro_rules! kind_tables {
         }
 
         impl Kinds {
-            /// Whether a kind is drawn; marked lines are no matter of a style.
+            /// Whether a kind is drawn. A style does not choose marked lines, so for them this is false.
             fn has(&self, kind: Kind) -> bool {
                 match kind {
                     $(Kind::$kind => self.$key,)+
@@ -45,7 +45,7 @@ macro_rules! kind_tables {
         }
 
         impl KindColors {
-            /// The colour of a kind; none of a kind that has no colour of its own.
+            /// The colour of a kind; `None` for a kind without a colour of its own.
             pub fn of(&self, kind: Kind) -> Option<Color> {
                 match kind {
                     $(Kind::$kind => self.$key,)+
@@ -90,7 +90,7 @@ impl KindColors {
         kinds.filter(|kind| self.of(*kind).is_some()).collect()
     }
 
-    /// In the order of [`Part::line_kinds`](npr_core::geometry::Part::line_kinds).
+    /// The colours in the order of [`Part::line_kinds`](npr_core::geometry::Part::line_kinds).
     pub(crate) fn in_order(&self) -> [Option<Color>; COLORED_KINDS] {
         Kind::COLORED.map(|kind| self.of(kind))
     }

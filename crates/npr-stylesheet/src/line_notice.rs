@@ -1,4 +1,4 @@
-//! What the line methods of a style cannot honour of how it colours lines.
+//! The notices about line colours that the line methods of a style cannot draw.
 
 use npr_core::geometry::Part;
 use npr_core::line_kind::KindSet;
@@ -6,7 +6,7 @@ use npr_core::line_kind::KindSet;
 use crate::{OutlineMethod, Style};
 
 impl Style {
-    /// What its line methods cannot honour of how it colours lines, a sentence each, for the user.
+    /// The notices about settings of `line.paint` that have no effect, one sentence each.
     pub fn line_paint_notices(&self) -> Vec<String> {
         // Gather the methods that lines of any part are drawn by.
         let has = |bits: u32| self.line_paint_flags() & bits != 0;
@@ -17,7 +17,7 @@ impl Style {
         let hulls = [OutlineMethod::Hull, OutlineMethod::FilterHull];
         let even = [filters[0], filters[1], OutlineMethod::Angle];
 
-        // Tell what these methods leave out of the light and of the kinds.
+        // List the settings of light and of kinds that these methods ignore.
         let mut notices = Vec::new();
         if has(Part::LINE_WIDTH) && draws(&even) {
             notices.push("line.paint.light.width changes no lines of method filter or angle");
@@ -34,7 +34,7 @@ impl Style {
         notices.into_iter().map(str::to_owned).collect()
     }
 
-    /// What is missing for the source of its lines' colours, for the user.
+    /// The notice about lines that take their colour from vertex colours while the style does not use those.
     pub fn line_source_notice(&self) -> Option<&'static str> {
         let asks = self.line_paint_flags() & Part::LINE_VERTEX != 0;
         (asks && !self.shade.use_vertex_colors)

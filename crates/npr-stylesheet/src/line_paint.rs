@@ -1,4 +1,5 @@
-//! Where the colour of lines comes from, as styles say it; [`npr_style::line_color`] does the arithmetic.
+//! The table `line.paint` of a style: where the colour of lines comes from. [`npr_style::line_color`] does the
+//! arithmetic.
 
 use color::{AlphaColor, HueDirection, Oklab, Srgb};
 use npr_core::color::{pack_rgba8, srgb_from_linear};
@@ -12,7 +13,7 @@ use crate::error::StyleError;
 use crate::overlay::style_table;
 use crate::{Color, KindColors};
 
-/// Most stops of a row.
+/// Most stops of a ramp that is laid over lines.
 pub const HUE_STOPS_MAX: usize = 16;
 
 /// Where the colour of a line comes from, before light, depth and tint.
@@ -167,9 +168,10 @@ impl LinePaint {
             | bit(Part::LINE_TINT, self.tint.a > 0)
     }
 
-    /// Gives a part what it says but for rows and picture, which hang on where they are kept.
+    /// Writes the settings into a part, except for ramps and picture, whose values depend on where they are stored.
     ///
-    /// `part` has its `line_color` and `base_color`; `opacity` is the style's, `radius` the model's.
+    /// `part` must have its `line_color` and `base_color`. `opacity` is that of the style, `radius` that of the sphere
+    /// around the model.
     pub fn give_to(&self, part: &mut Part, opacity: f32, radius: f32) {
         let LineDepth { near, far, .. } = self.depth;
         let kind = |color: Option<Color>| {
@@ -179,7 +181,8 @@ impl LinePaint {
         part.line_flags = self.flags();
         part.line_kinds = self.kinds.in_order().map(kind);
         part.line_factor = self.factor;
-        // From the middle of the model, its nearest place lies a radius before and its farthest as far behind.
+        // Count depth from the middle of the model: its nearest point lies one radius before it, its farthest one
+        // behind.
         let [start, end] = match self.depth.space {
             DepthSpace::Model => [near, far].map(|share| (2.0 * share - 1.0) * radius),
             DepthSpace::World => [near, far],
@@ -190,14 +193,14 @@ impl LinePaint {
         part.line_tint = pack_rgba8(self.tint.srgb());
         part.line_rim = self.light.rim;
         if self.source != LineColorSource::Constant {
-            // For the few places where nothing is known of the surface.
+            // This colour is for the few places where the surface is not known.
             let [r, g, b, _] = part.base_color;
             let [r, g, b] = [r, g, b].map(|light| srgb_from_linear(light * self.factor));
             part.line_color = [r, g, b, part.line_color[3]];
         }
     }
 
-    /// Checks what no single value shows.
+    /// Checks everything that involves more than one value.
     pub(crate) fn check(&self, key: &str) -> Result<(), StyleError> {
         // Refuse stops out of order.
         for (name, ramp) in [("depth", &self.depth.ramp), ("light", &self.light.ramp)] {
@@ -229,7 +232,7 @@ impl LinePaint {
     }
 }
 
-/// A row of stops as [`HUES`] sRGB colours with straight alpha, for the texture store.
+/// A ramp of stops as a row of [`HUES`] sRGB colours with straight alpha, for the texture store.
 ///
 /// Between stops colours mix in OKLab with premultiplied alpha; before the first and after the last they stay. Empty
 /// stops give a clear row. O([`HUES`] * stops).
@@ -353,7 +356,7 @@ mod tests {
             }
         }
 
-        /// Stops at any places, doubled ones too, give colours.
+        /// Stops at any positions give colours, even where several coincide.
         #[test]
         fn any_stops_give_a_row(mut stops in prop::collection::vec((0f32..=1.0, any::<[u8; 4]>()), 0..HUE_STOPS_MAX)) {
             stops.sort_by(|a, b| a.0.total_cmp(&b.0));

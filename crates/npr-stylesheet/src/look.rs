@@ -1,4 +1,4 @@
-//! How single parts look: the style, and every rule that applies, laid over it.
+//! The look of single parts: the style, with every rule that applies laid over it.
 
 use crate::overlay::Over;
 use crate::{
@@ -6,7 +6,7 @@ use crate::{
     Style,
 };
 
-/// How one part of the scene looks once every rule has spoken.
+/// The look of one part of the scene, with all rules applied.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Look<'a> {
     /// Whether it has lines.
@@ -15,17 +15,17 @@ pub struct Look<'a> {
     pub line_method: OutlineMethod,
     /// Colour of its lines.
     pub line_color: Color,
-    /// What else decides their colour.
+    /// The other settings that decide their colour.
     pub line_paint: LinePaint,
-    /// What its line width is multiplied by.
+    /// Factor on the width of its lines.
     pub width_factor: f32,
     /// Its angle for method `angle`, in degrees off the silhouette.
     pub angle_threshold_deg: f32,
-    /// How its lines mind what lies behind them.
+    /// How its lines adapt to what lies behind them.
     pub line_background: LineBackground,
     /// The subject that it belongs to, where a rule names one.
     pub subject: Option<&'a str>,
-    /// Colour instead of its material's.
+    /// Colour in place of its material's, where a rule gives one.
     pub shade_color: Option<Color>,
     /// Its tones, sorted.
     pub ramp: &'a [Stop],
@@ -37,7 +37,7 @@ pub struct Look<'a> {
     pub highlight: Highlight,
     /// How it glows, where it is a beam.
     pub beam: Option<Beam>,
-    /// From it to where it came from, in the scene, where a rule says so.
+    /// Vector in the scene from the part to where it came from, where a rule gives one.
     pub trail: Option<[f32; 3]>,
 }
 
@@ -63,7 +63,7 @@ impl<'a> Look<'a> {
         }
     }
 
-    /// The look with what `rule` states in place of what it had.
+    /// The look with the values that `rule` states in place of its own.
     pub(crate) fn with(self, rule: &'a Rule) -> Self {
         // Lay every table of the rule over what the part had.
         let (line, shade) = (&rule.line, &rule.shade);
@@ -99,7 +99,7 @@ impl Style {
             .fold(Look::plain(self), Look::with)
     }
 
-    /// The same for a part that belongs to no region of an id map.
+    /// As [`Self::resolve`], for a part that belongs to no region of an id map.
     pub fn resolve_for(&self, material: &str, object: &str) -> Look<'_> {
         let ids = &[];
         self.resolve(PartNames {

@@ -1,4 +1,4 @@
-//! The pictures that a style names for its tones.
+//! The pictures that a style names for its tones, lines and blends.
 
 use crate::{LightShape, Style};
 
@@ -11,10 +11,11 @@ const SMOKE_RAMP: &str = "smoke.ramp_image";
 const SMOKE_HATCH: &str = "smoke.ink.hatch.image";
 
 impl Style {
-    /// The pictures that tones and blends are made from: key and name as the style has them, each name where it
-    /// stands first.
+    /// The pictures for tones, lines and blends, as pairs of key and picture name. Each name is listed once, with the
+    /// first key that has it.
     ///
-    /// Callers load them: no files are opened here. Background and line widths name theirs elsewhere.
+    /// The caller loads them: no files are opened here. Pictures of the background and of line widths are not among
+    /// them.
     pub fn named_pictures(&self) -> Vec<(String, &str)> {
         // List the pictures that the style itself names.
         let mut named = vec![
@@ -46,7 +47,7 @@ impl Style {
             }
         }
 
-        // Keep each name where it stands first.
+        // Keep the first entry of each name.
         let mut seen = vec![""];
         named.retain(|(_, name)| {
             let is_new = !seen.contains(name);

@@ -1,15 +1,15 @@
-//! The valid word that a mistyped one was meant to be.
+//! Finds the valid word that is most like a mistyped one.
 
-/// Longest word that is compared; nobody mistypes more.
+/// Longest word that is compared, in bytes.
 const COMPARED_MAX: usize = 64;
 
-/// Fewest letters of a candidate's beginning that stand for it.
+/// Fewest bytes that the beginning of a candidate must have to stand for it.
 const BEGINNING_MIN: usize = 3;
 
 /// The candidate with the fewest typing slips from `word`, if at most a third of its letters differ.
 ///
-/// Slips are those of Damerau: a letter more, less, wrong, or two swapped. Where no candidate is near, one whose
-/// beginning is, up to a `-` or `_`, counts: who writes `comc` meant `comic-silver`. Among equals the first wins.
+/// Slips are those of Damerau: an added, missing or wrong letter, or two swapped ones. Where no candidate is near,
+/// their beginnings up to a `-` or `_` are compared: `comc` finds `comic-silver`. Among equals the first wins.
 pub(crate) fn nearest<'a>(
     word: &str,
     candidates: impl Iterator<Item = &'a str>,
@@ -27,7 +27,7 @@ pub(crate) fn nearest<'a>(
     nearest_of(word, whole).or_else(|| nearest_of(word, beginnings))
 }
 
-/// What belongs to the name with the fewest slips from `word`.
+/// The candidate whose name has the fewest slips from `word`; `named` holds pairs of name and candidate.
 fn nearest_of<'a>(word: &str, named: impl Iterator<Item = (&'a str, &'a str)>) -> Option<&'a str> {
     let allowed = (word.chars().count() / 3).max(1);
     named

@@ -1,15 +1,17 @@
-//! Rules laid over the style: tables of plain values, and beside each the table of what rules say of it.
+//! Rules laid over the style: tables of plain values, and for each the table of what rules may state about it.
 //!
-//! A rule may say most keys of a part of the style, each or none: its table has the same keys, every one optional.
-//! [`style_table!`] writes both tables from one list of keys, with the default of each, and lays one over the other;
-//! [`rule_table!`] writes the rules' table alone, where rules may say some of the keys. The rules' tables are structs,
-//! not TOML: the schema has a text of its own for every key of a rule, dumped styles spell values out in the order of
-//! the structs whatever the file wrote, callers read and build rules by field, and a frame lays rules over the style
-//! once a part, which moves plain values here and would read a table anew there.
+//! A rule may state most keys of a table of the style, so its own table has the same keys, all of them optional.
+//! [`style_table!`] declares both tables from one list of keys, with the default of each, and lays one over the other.
+//! [`rule_table!`] declares the rules' table alone, where rules may state only some of the keys.
+//!
+//! The rules' tables are structs, not TOML, for four reasons. The schema has a text of its own for every key of a
+//! rule. Dumped styles spell values out in the order of the structs, whatever the file wrote. Callers read and build
+//! rules by field. And a frame lays rules over the style once for every part, which moves plain values here and would
+//! read a table anew there.
 
-/// What a rule states, over what a part had without it.
+/// Lays the values that a rule states over those that a part had without it.
 pub(crate) trait Over<T> {
-    /// `below`, with what is stated in place of what it had.
+    /// `below`, with the stated values in place of its own.
     fn over(&self, below: T) -> T;
 }
 
@@ -25,10 +27,11 @@ impl<T: Clone> Over<Option<T>> for Option<T> {
     }
 }
 
-/// A table of the style, each key a field with its default; and the rules' table, where all of its keys stand in it.
+/// Declares a table of the style, with a field and a default for each key; and the rules' table too, where rules may
+/// state all of the keys.
 ///
-/// `#[rule = ".."]` is the text of a key in the rules' schema; ranges and lengths hold for both. Tables within stand
-/// in the block `with`, each with the rules' table of its own.
+/// `#[rule = ".."]` is the text of a key in the rules' schema; ranges and lengths hold for both. Nested tables are
+/// listed in the block `with`, each with its own rules' table.
 macro_rules! style_table {
     (
         $(#[doc = $about:tt])+
@@ -101,7 +104,7 @@ macro_rules! style_table {
     };
 }
 
-/// The rules' table over a table of the style: absent keys leave what a part had.
+/// Declares the rules' table of a table of the style. Absent keys leave a part's values as they were.
 ///
 /// A key with `#[yields_to(other)]` is reset where a rule states the other one and not the key itself.
 macro_rules! rule_table {

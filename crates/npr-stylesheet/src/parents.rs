@@ -1,4 +1,4 @@
-//! What a style starts from.
+//! The key `extends` of a style: the styles that it starts from.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

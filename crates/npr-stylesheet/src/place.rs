@@ -1,4 +1,4 @@
-//! Where in a text things stand.
+//! Positions of keys in a text.
 
 use npr_core::decoding::guard;
 use toml::Spanned;
@@ -16,7 +16,7 @@ pub(crate) fn of_byte(text: &str, byte: usize) -> SourceLocation {
     }
 }
 
-/// Where `key`, a path with dots, stands in a TOML text; for an absent key, where its table stands.
+/// The position of the dotted key `key` in a TOML text; for an absent key, the position of its table.
 pub(crate) fn of_key(text: &str, key: &str) -> Option<SourceLocation> {
     let document = guard(|| DeTable::parse(text)).ok()?.ok()?;
     let mut found = None;
@@ -36,7 +36,7 @@ pub(crate) fn of_key(text: &str, key: &str) -> Option<SourceLocation> {
     found.map(|byte| of_byte(text, byte))
 }
 
-/// The entry of `table` that opens the path `rest`: its first byte, its value, and what of the path is left.
+/// The entry of `table` that the path `rest` begins with: its first byte, its value, and the path that is left.
 ///
 /// Keys may hold dots themselves, so names are compared with the path and not with its parts.
 fn step<'t, 'i, 'k>(

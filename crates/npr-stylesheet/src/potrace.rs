@@ -1,4 +1,4 @@
-//! Constants of strokes from pixels.
+//! The table `line.potrace` of a style: the constants of pixel strokes.
 
 use npr_core::published_constants;
 use npr_core::published_path::PublishedPath;
@@ -16,7 +16,7 @@ macro_rules! potrace_table {
         }
 
         impl Potrace {
-            /// The constants as the path reads them.
+            /// The constants as the algorithm reads them.
             pub fn path(&self) -> PublishedPath {
                 PublishedPath { $($key: self.$key,)+ ..PublishedPath::default() }
             }

@@ -1,21 +1,21 @@
-//! The looks that come with the machine.
+//! The presets: styles that come with the program.
 
 use crate::error::StyleError;
 use crate::nearest::nearest;
 
-/// Name of the look that a picture has when nobody chose one.
+/// Name of the preset for pictures without a chosen style.
 pub const DEFAULT_PRESET: &str = "toon";
 
-/// A look with a stable name.
+/// A built-in style with a stable name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Preset {
-    /// What it is asked for by, alone or followed by `@version`.
+    /// Name by which it is asked for, alone or followed by `@version`.
     pub name: &'static str,
     /// Version of the look; raised whenever its pictures change.
     pub version: u32,
     /// One line for lists.
     pub title: &'static str,
-    /// The style file itself, with a remark on every value.
+    /// The text of the style file, with a comment on every value.
     pub text: &'static str,
 }
 
@@ -197,7 +197,7 @@ const PRESETS: &[Preset] = &[
     },
 ];
 
-/// Looks that presets had before: a style that names such a version keeps it.
+/// Older versions of presets. A style that names such a version keeps its look.
 const OLDER: &[Preset] = &[Preset {
     name: "comic-modern",
     version: 1,

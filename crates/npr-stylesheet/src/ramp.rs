@@ -1,4 +1,4 @@
-//! The tones of a ramp as styles say them.
+//! The stops of a ramp of tones in a style.
 
 use npr_style::ramp::Level;
 use schemars::JsonSchema;

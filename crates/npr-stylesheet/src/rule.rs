@@ -1,4 +1,4 @@
-//! Exceptions for single materials, objects and ids.
+//! The rules of a style: exceptions for single materials, objects and ids.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -78,7 +78,8 @@ pub struct RuleShade {
 }
 
 impl RuleShade {
-    /// The picture for tones with what the rule states in place of what it had: stops of its own leave none.
+    /// The picture for tones of a part that had `image`: the rule's own where it states one, none where it states stops
+    /// instead, and otherwise `image`.
     pub(crate) fn ramp_image_over<'a>(&'a self, image: &'a str) -> &'a str {
         let of_stops = self.ramp.as_ref().map(|_| "");
         self.ramp_image.as_deref().or(of_stops).unwrap_or(image)
@@ -112,14 +113,15 @@ pub struct Rule {
     pub beam: Option<RuleBeam>,
 }
 
-/// What a part is called, for rules.
+/// The names of a part, which rules match.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct PartNames<'a> {
     /// Its material's name.
     pub material: &'a str,
     /// Its object's name.
     pub object: &'a str,
-    /// The names of its region of an id map, as [`IdRegion`](crate::IdRegion) has them; none where it belongs to none.
+    /// The names of its region of an id map, as [`IdRegion`](crate::IdRegion) has them; empty where it belongs to no
+    /// region.
     pub ids: &'a [String],
 }
 

@@ -1,4 +1,4 @@
-//! The JSON Schema of a style, and the questions that reading asks it.
+//! The JSON Schema of a style, and the look-ups in it that checking a style needs.
 
 use std::sync::OnceLock;
 
@@ -22,7 +22,7 @@ impl Node {
         Self::of(schema())
     }
 
-    /// The node that `value` is or points at.
+    /// The node that `value` is, or that its `$ref` points at.
     fn of(value: &'static Value) -> Option<Self> {
         let node = value.as_object()?;
         match node.get("$ref").and_then(Value::as_str) {
@@ -76,7 +76,7 @@ impl Node {
         Self::of(self.0.get("items")?)
     }
 
-    /// The forms that a value may take, itself where there is but one.
+    /// The forms that a value may take; the node itself where it has only one.
     pub(crate) fn forms(self) -> Vec<Self> {
         if self.words().is_empty() {
             let forms: Vec<_> = self
@@ -91,7 +91,7 @@ impl Node {
         vec![self]
     }
 
-    /// The words or numbers that a value has to be one of; none where any will do.
+    /// The words or numbers that a value must be one of; empty where any value is allowed.
     pub(crate) fn words(self) -> Vec<&'static Value> {
         let alone = self.list("enum").chain(self.0.get("const"));
         let described = self

@@ -13,23 +13,23 @@ use crate::{Style, check, layers};
 const TEXT_BYTES_MAX: usize = 1 << 16;
 const DEPTH_MAX: usize = 16;
 
-/// An override, taken apart.
+/// A parsed override.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Assignment<'a> {
-    /// As the user wrote it.
+    /// The override as the user wrote it.
     text: &'a str,
-    /// The key, name by name.
+    /// The names that make up the key.
     pub(crate) path: Vec<&'a str>,
-    /// What it gets.
+    /// The new value of the key.
     pub(crate) value: Value,
-    /// The key, where the user called it by a former name.
+    /// The key as the user wrote it, where that is a former key.
     pub(crate) former: Option<String>,
 }
 
 impl<'a> Assignment<'a> {
-    /// What a text of the form `key.path=value` says.
+    /// Parses a text of the form `key.path=value`.
     pub(crate) fn of(text: &'a str) -> Result<Self, StyleError> {
-        // Take the text apart into key and value, and refuse what is no assignment.
+        // Split the text into key and value, and refuse a malformed one.
         let malformed = || StyleError::Assignment {
             text: text.to_owned(),
         };
@@ -42,7 +42,7 @@ impl<'a> Assignment<'a> {
             return Err(malformed());
         }
 
-        // Give the key its name of today.
+        // Replace a former name by the current one.
         let value = parse(value.trim());
         let today = name_of_today(&path);
         let former = today.map(|_| path.join("."));
@@ -67,7 +67,7 @@ impl<'a> Assignment<'a> {
         check::check(table)
     }
 
-    /// Refuses entries of lists that are not there, and names in place of their numbers.
+    /// Refuses list entries that do not exist, and names in place of their numbers.
     fn check_lists(&self, table: &Table) -> Result<(), StyleError> {
         // Walk down the key, in the schema and in the style at once.
         let mut node = Node::root();
@@ -98,7 +98,7 @@ impl<'a> Assignment<'a> {
     }
 }
 
-/// `style` with values replaced, checked together once all stand; see [`Style::set`].
+/// `style` with all values replaced. Contradictions are checked only after the last one; see [`Style::set`].
 pub(crate) fn assign(style: &Style, assignments: &[Assignment<'_>]) -> Result<Style, StyleError> {
     let mut table = Table::try_from(style).map_err(|error| StyleError::Syntax {
         place: None,
@@ -110,7 +110,7 @@ pub(crate) fn assign(style: &Style, assignments: &[Assignment<'_>]) -> Result<St
     layers::from_table(table)
 }
 
-/// The TOML value of a text; what is no TOML is text itself.
+/// Parses a TOML value. A text that is not TOML becomes a string.
 fn parse(text: &str) -> Value {
     let deep = text.matches(['.', '[', '{']).count() > 1000;
     let parse = || guard(|| text.parse::<Value>()).ok()?.ok();
@@ -118,7 +118,7 @@ fn parse(text: &str) -> Value {
     parsed.unwrap_or_else(|| Value::String(text.to_owned()))
 }
 
-/// Puts `value` at `path`, making tables on the way; none where the path leads through a plain value.
+/// Puts `value` at `path`, making tables on the way; `None` where the path leads through a plain value.
 fn insert(table: &mut Table, path: &[&str], value: Value) -> Option<()> {
     let (name, rest) = path.split_first()?;
     if rest.is_empty() {
@@ -148,7 +148,7 @@ fn insert_into(holder: &mut Value, path: &[&str], value: Value) -> Option<()> {
     }
 }
 
-/// Removes the value at `path` from every rule: rules name keys as the style does, and overrides win.
+/// Removes the value at `path` from every rule, so that the override wins. Keys have the same names in rules.
 fn yield_rules(table: &mut Table, path: &[&str]) {
     let Some(Value::Array(rules)) = table.get_mut("rule") else {
         return;

@@ -1,4 +1,4 @@
-//! How surfaces are filled.
+//! The table `shade` of a style: how surfaces are filled.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -60,7 +60,7 @@ pub struct Shade {
 }
 }
 
-/// The stops ready for [`ramp_light`](npr_style::ramp::ramp_light).
+/// The stops as [`ramp_light`](npr_style::ramp::ramp_light) takes them.
 pub fn levels(stops: &[Stop]) -> Vec<Level> {
     stops.iter().map(Stop::level).collect()
 }

@@ -219,7 +219,7 @@ impl Default for SmokeInk {
 }
 
 impl SmokeInk {
-    /// The same pen on surfaces, laid on the picture.
+    /// The pen as [`Ink`], with its strokes fixed to the picture.
     pub fn on_picture(&self) -> Ink {
         Ink {
             tone: self.tone,
@@ -306,7 +306,8 @@ impl Default for SmokeStyle {
 }
 
 impl SmokeStyle {
-    /// The tones as passes read them: linear light and where each begins; unused rows never begin.
+    /// The tones as passes read them: the colour in linear light, then the tone at which it begins. Unused rows never
+    /// begin.
     pub fn levels(&self) -> [[f32; 4]; 8] {
         let mut levels = [[1.0, 1.0, 1.0, Level::UNUSED]; 8];
         for (level, stop) in levels.iter_mut().zip(&self.ramp) {
@@ -316,7 +317,7 @@ impl SmokeStyle {
         levels
     }
 
-    /// Whether the last pass finishes the picture, with the pen or the tones of a picture.
+    /// Whether the smoke is finished by the last pass, which draws with the pen or with the tones of a picture.
     pub fn is_finished_late(&self) -> bool {
         self.ink.tone != Tone::Off || !self.ramp_image.is_empty()
     }

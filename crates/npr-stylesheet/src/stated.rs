@@ -1,4 +1,4 @@
-//! A style together with which of its keys its user stated.
+//! A style, with the keys that its user stated.
 
 use std::collections::BTreeSet;
 
@@ -12,10 +12,10 @@ use crate::{Style, layers};
 /// Lists whose entries are tables with keys of their own; other lists are one value.
 const LISTS_OF_TABLES: [&str; 4] = ["rule", "id_map", "lettering", "extra"];
 
-/// A style, and the keys that its user stated: in style files, their parents but for presets, and overrides.
+/// A style, and the keys that its user stated in style files, in their parents except presets, and in overrides.
 ///
-/// What a preset says is nobody's wish for a single key, so nobody has to be told where it cannot act. Nor is what a
-/// style file says of a key that would have the same value without: dumped styles say everything.
+/// Who chooses a preset does not ask for its single keys, so keys of presets that have no effect need no notice. A key
+/// of a style file that has its default value does not count as stated either, because dumped styles have every key.
 ///
 /// ```
 /// use npr_stylesheet::Stated;
@@ -51,7 +51,7 @@ impl Stated {
             former,
         } = layers::read(text, load)?;
 
-        // Keep the keys whose values differ from what they would be without the file.
+        // Keep the keys whose values differ from the defaults.
         let mut keys = BTreeSet::new();
         gather(&Value::Table(stated), "", &mut keys);
         if let Ok(usual) = Value::try_from(Style::default()) {
@@ -65,7 +65,7 @@ impl Stated {
         })
     }
 
-    /// A preset, of which nothing was stated.
+    /// The style of a preset, without stated keys.
     ///
     /// # Errors
     ///
@@ -78,13 +78,12 @@ impl Stated {
         })
     }
 
-    /// Overrides values one after the other, as [`Style::set`] does, but checks them against one another once all
-    /// stand: their order does not matter where they need each other.
+    /// Overrides values one after the other, as [`Style::set`] does, but checks for contradictions only after the
+    /// last. The order of overrides that need each other does not matter.
     ///
     /// # Errors
     ///
-    /// [`StyleError`] for the first override that is wrong by itself, else for what contradicts itself; nothing
-    /// changes then.
+    /// [`StyleError`] for the first override that is wrong by itself, else for a contradiction. Nothing changes then.
     pub fn set_all<T: AsRef<str>>(&mut self, overrides: &[T]) -> Result<(), StyleError> {
         let overrides = overrides.iter().map(|text| Assignment::of(text.as_ref()));
         let overrides: Vec<Assignment<'_>> = overrides.collect::<Result<_, _>>()?;
@@ -124,7 +123,8 @@ impl Stated {
         self.keys.iter().map(String::as_str)
     }
 
-    /// Forgets what was stated of a key that is stated anew: by itself, by what is in it, and by rules, which give way.
+    /// Removes the stated keys that a new value of `key` replaces: the key itself, keys within it, and the same keys
+    /// of rules.
     fn forget(&mut self, key: &str) {
         let is_of = |stated: &str| lies_in(stated, key);
         self.keys

@@ -1,4 +1,4 @@
-//! The whole description of a picture's look.
+//! The whole style of a picture.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -91,7 +91,7 @@ impl Style {
         self.curve_sources().next().is_some()
     }
 
-    /// How the curves of parts whose lines may be drawn as such are found.
+    /// The line sources of the parts whose lines may be drawn as curves, each once.
     pub fn curve_sources(&self) -> impl Iterator<Item = LineSource> {
         let rules = self.rule.iter().filter_map(|rule| rule.line.method);
         let methods = rules.chain([self.line.method]);
@@ -101,7 +101,7 @@ impl Style {
         })
     }
 
-    /// Whether the lines of any part may mind what lies behind them.
+    /// Whether the lines of any part may adapt to what lies behind them.
     pub fn contrasts_with_background(&self) -> bool {
         let rules = self.rule.iter().map(|rule| rule.line.background.method);
         let mut methods = rules.chain([Some(self.line.background.method)]).flatten();

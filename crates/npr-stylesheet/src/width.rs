@@ -45,7 +45,7 @@ pub enum Channel {
 }
 
 impl Channel {
-    /// Place of the channel in a colour of four, 0..3.
+    /// Index of the channel in an RGBA colour, 0..3.
     pub fn index(self) -> usize {
         self as usize
     }

@@ -1,6 +1,6 @@
-//! Amounts of memory as the user writes them.
+//! Parses amounts of memory.
 
-/// The number of bytes that a text such as `512M` spells: K, M and G are powers of 1024.
+/// Parses a number of bytes such as `512M`; K, M and G are powers of 1024.
 pub fn byte_count(text: &str) -> Result<u64, String> {
     let digits = text.trim_end_matches(|c: char| c.is_ascii_alphabetic());
     let factor: u64 = match text[digits.len()..].to_ascii_uppercase().as_str() {

@@ -1,11 +1,11 @@
-//! Where what is costly to prepare is kept.
+//! The argument for the folder that keeps prepared data between runs.
 
 use crate::fault::{Exit, Fault};
 use crate::message::quoted;
 use clap::Args;
 use std::path::PathBuf;
 
-/// Names the folder for what is kept where no option does.
+/// Environment variable that names the cache folder where the option does not.
 const VARIABLE: &str = "NPR_CACHE_DIR";
 
 /// Where what is costly to prepare is kept between runs.
@@ -18,7 +18,7 @@ pub struct CacheArguments {
 }
 
 impl CacheArguments {
-    /// The folder, which has to exist; none where the user wants none.
+    /// The cache folder, which must exist; `None` for no cache.
     pub fn folder(&self) -> Result<Option<PathBuf>, Fault> {
         let of_variable = || std::env::var_os(VARIABLE).map(PathBuf::from);
         let folder = self.cache.clone().or_else(of_variable);

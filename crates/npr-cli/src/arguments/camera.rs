@@ -1,4 +1,4 @@
-//! What the user said about the camera.
+//! The arguments about the camera.
 
 use super::point::{Point, direction};
 use clap::Args;
@@ -27,7 +27,7 @@ pub struct CameraArguments {
     pub camera: Option<String>,
 }
 
-/// An angle in degrees that a perspective view can have.
+/// Parses a field of view, 0.01 to 179.9 degrees.
 fn field_of_view(text: &str) -> Result<f32, String> {
     match text.parse::<f32>() {
         Ok(degrees) if (0.01..=179.9).contains(&degrees) => Ok(degrees),

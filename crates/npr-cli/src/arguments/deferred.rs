@@ -1,9 +1,9 @@
-//! Options that are described only where their command is called, so that a short command starts soon.
+//! Options that clap builds only when their command is called, so that other commands start sooner.
 
 use clap::builder::Resettable;
 use clap::{ArgMatches, Args, Command, Error, FromArgMatches};
 
-/// Arguments of a command with many options.
+/// The arguments of a command with many options, which clap builds only when the command is called.
 #[derive(Debug)]
 pub struct Deferred<T>(pub T);
 
@@ -27,8 +27,7 @@ impl<T: Args> Args for Deferred<T> {
     }
 }
 
-/// A command with its arguments; what it is about stays, which the description of its arguments would take the place
-/// of.
+/// Adds arguments to a command. The command keeps its own help text, which that of the arguments would replace.
 fn described(command: Command, augment: fn(Command) -> Command) -> Command {
     let [about, long_about] =
         [command.get_about(), command.get_long_about()].map(|text| Resettable::from(text.cloned()));

@@ -1,4 +1,4 @@
-//! What the user said to any command that draws.
+//! The arguments of all commands that draw scenes.
 
 use super::{CameraArguments, LimitArguments, LookArguments, Size, VolumeArguments};
 use clap::{Args, ValueEnum};
@@ -8,7 +8,7 @@ use std::path::PathBuf;
 #[derive(Debug, Clone, Args)]
 pub struct DrawingArguments {
     /// Width and height in pixels, 32768 at most.
-    // Without a heading, whatever it is flattened behind.
+    // Reset the heading, which options flattened before this one may have set.
     #[arg(
         long, value_name = "WxH", default_value_t = Size { width: 1280, height: 720 }, help_heading = None
     )]

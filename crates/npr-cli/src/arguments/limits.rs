@@ -1,4 +1,4 @@
-//! What the user said about safety limits.
+//! The arguments about safety limits.
 
 use super::byte_count::byte_count;
 use clap::Args;

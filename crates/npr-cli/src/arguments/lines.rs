@@ -1,4 +1,4 @@
-//! What the user said to `npr lines`.
+//! The arguments of `npr lines`.
 
 use super::{CacheArguments, DrawingArguments};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
@@ -173,7 +173,7 @@ pub enum PathForm {
     Centreline,
 }
 
-/// One of several things by its name; what each means becomes its help.
+/// A parser that chooses one of `all` by its name. The meaning of each becomes its help text.
 fn one_of<T: Copy + Send + Sync + 'static>(
     all: &'static [T],
     name: fn(T) -> &'static str,
@@ -189,7 +189,7 @@ fn one_of<T: Copy + Send + Sync + 'static>(
     })
 }
 
-/// A sheet of paper.
+/// Parses a page size.
 fn page(text: &str) -> Result<Page, String> {
     Page::parse(text).ok_or_else(|| {
         "must be A3, A4, A5, Letter, or width and height up to 10000 mm such as 200x300mm"
@@ -197,17 +197,17 @@ fn page(text: &str) -> Result<Page, String> {
     })
 }
 
-/// The angle of a crease in degrees.
+/// Parses the angle of a crease, 0 to 180 degrees.
 fn crease_angle(text: &str) -> Result<f32, String> {
     degrees(text, 0.0)
 }
 
-/// An angle in degrees by which a stroke turns.
+/// Parses the angle from which strokes are cut, 10 to 180 degrees.
 fn split_angle(text: &str) -> Result<f32, String> {
     degrees(text, 10.0)
 }
 
-/// An angle from the least to 180 degrees.
+/// Parses an angle from `least` to 180 degrees.
 fn degrees(text: &str, least: f32) -> Result<f32, String> {
     match text.parse::<f32>() {
         Ok(degrees) if (least..=180.0).contains(&degrees) => Ok(degrees),
@@ -216,7 +216,7 @@ fn degrees(text: &str, least: f32) -> Result<f32, String> {
     }
 }
 
-/// A fraction of a mesh's diagonal.
+/// Parses a weld tolerance: a fraction of a mesh's diagonal, 0 to 0.1.
 fn weld_tolerance(text: &str) -> Result<f32, String> {
     match text.parse::<f32>() {
         Ok(fraction) if (0.0..=0.1).contains(&fraction) => Ok(fraction),

@@ -1,4 +1,4 @@
-//! What the user said about the style.
+//! The arguments about the style.
 
 use clap::Args;
 use npr_stylesheet::Background;
@@ -23,7 +23,7 @@ pub struct LookArguments {
 }
 
 impl LookArguments {
-    /// The same, with a preset where no style is said.
+    /// The arguments with `preset` as the style, where the user names none.
     pub fn or_style(&self, preset: &str) -> Self {
         let mut look = self.clone();
         look.style.get_or_insert_with(|| preset.to_owned());

@@ -1,4 +1,4 @@
-//! What the user said to `npr outline`.
+//! The arguments of `npr outline`.
 
 use super::LimitArguments;
 use clap::{Args, ValueEnum};
@@ -72,7 +72,7 @@ pub enum Way {
 }
 
 impl OutlineRuleArguments {
-    /// The same as a rule of the library; what is not said is as styles have it.
+    /// The rule that the arguments describe. Options that are not given have the defaults of the style keys.
     pub fn rule(&self) -> Rule {
         let usual = LineBackground::default();
         let likeness = Likeness {
@@ -91,12 +91,12 @@ impl OutlineRuleArguments {
     }
 }
 
-/// What lies behind a figure.
+/// The background of a figure.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Behind {
     /// One colour.
     Color(Color),
-    /// A picture; - for standard input.
+    /// The path of a picture; `-` is standard input.
     Picture(PathBuf),
 }
 
@@ -121,7 +121,7 @@ fn factor(text: &str) -> Result<f32, &'static str> {
     within(text, [1.0, 20.0]).ok_or("must be a number from 1 to 20")
 }
 
-/// A number within two bounds.
+/// Parses a number from `least` to `most`.
 fn within(text: &str, [least, most]: [f32; 2]) -> Option<f32> {
     let number = text.parse::<f32>().ok()?;
     (least..=most).contains(&number).then_some(number)

@@ -1,4 +1,4 @@
-//! Points and directions as the user writes them.
+//! Parses points and directions.
 
 use std::str::FromStr;
 
@@ -26,7 +26,7 @@ impl FromStr for Point {
     }
 }
 
-/// A direction: a point that is not the origin.
+/// Parses a direction: any point but the origin.
 pub fn direction(text: &str) -> Result<Point, String> {
     let point: Point = text.parse()?;
     if point.0 == [0.0; 3] {

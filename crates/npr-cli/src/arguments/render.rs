@@ -1,4 +1,4 @@
-//! What the user said to `npr render`.
+//! The arguments of `npr render`.
 
 use super::{CacheArguments, DrawingArguments};
 use clap::Args;

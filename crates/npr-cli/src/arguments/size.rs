@@ -1,4 +1,4 @@
-//! Picture sizes as the user writes them.
+//! Parses picture sizes.
 
 use std::fmt;
 use std::str::FromStr;

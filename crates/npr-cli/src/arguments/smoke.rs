@@ -1,4 +1,4 @@
-//! What the user said to `npr smoke`.
+//! The arguments of `npr smoke`.
 
 use super::DrawingArguments;
 use clap::Args;
@@ -35,7 +35,7 @@ pub struct SmokeArguments {
     pub drawing: DrawingArguments,
 }
 
-/// A range of frames, both ends drawn.
+/// A range of frames, with both ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Frames {
     /// The first frame.
@@ -59,7 +59,7 @@ impl FromStr for Frames {
     }
 }
 
-/// Cells along x, y and z.
+/// Size of a simulation: cells along x, y and z.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Grid(pub [u32; 3]);
 
@@ -78,7 +78,7 @@ impl FromStr for Grid {
     }
 }
 
-/// Frames from picture to picture.
+/// Parses the frames from one picture to the next, 0.001 to 1000000.
 fn step(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(step) if (0.001..=1e6).contains(&step) => Ok(step),
@@ -86,7 +86,7 @@ fn step(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Frames per second.
+/// Parses frames per second, 1 to 1000.
 fn frame_rate(text: &str) -> Result<f32, String> {
     match text.parse::<f32>() {
         Ok(rate) if (1.0..=1000.0).contains(&rate) => Ok(rate),

@@ -1,4 +1,4 @@
-//! What the user said to `npr trace`.
+//! The arguments of `npr trace`.
 
 use super::LimitArguments;
 use super::trace_form::TraceFormArguments;
@@ -69,7 +69,7 @@ pub struct TraceMethodArguments {
 }
 
 impl TraceMethodArguments {
-    /// The same as options of the library.
+    /// The options of the tracer that the arguments describe.
     pub fn options(&self) -> TraceOptions {
         TraceOptions {
             turd_size: self.turdsize,
@@ -80,7 +80,7 @@ impl TraceMethodArguments {
     }
 }
 
-/// How far curves may stray where nothing is said.
+/// Default of `--opttolerance`, in pixels.
 fn usual_tolerance() -> f64 {
     let usual = TraceOptions::default().join_tolerance;
     usual.unwrap_or_default()
@@ -104,7 +104,7 @@ pub enum TracedFormat {
 }
 
 impl TracedFormat {
-    /// All of them, with the ending of their files.
+    /// All formats, with the extensions of their files.
     pub const ENDINGS: [(Self, &str); 6] = [
         (Self::Svg, "svg"),
         (Self::Pdf, "pdf"),
@@ -114,7 +114,7 @@ impl TracedFormat {
         (Self::Glb, "glb"),
     ];
 
-    /// The format of the library.
+    /// The format as the writers of files take it.
     pub fn form(self) -> TracedForm {
         match self {
             Self::Svg => TracedForm::Curves(TraceFormat::Svg),
@@ -127,7 +127,7 @@ impl TracedFormat {
     }
 }
 
-/// What a file of a traced bitmap holds.
+/// The contents of a file of a traced bitmap: curves or triangles, in one of their formats.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TracedForm {
     /// Curves.
@@ -136,7 +136,7 @@ pub enum TracedForm {
     Mesh(MeshFormat),
 }
 
-/// Reads the name of a turn policy, and offers all of them.
+/// A parser of names of turn policies, which lists all of them in the help.
 fn turn_policies() -> impl TypedValueParser<Value = TurnPolicy> {
     let names =
         TurnPolicy::ALL.map(|policy| PossibleValue::new(policy.name()).help(policy.meaning()));

@@ -1,4 +1,4 @@
-//! What the user said to `npr trace` about what becomes of the ink.
+//! The arguments of `npr trace` that choose between outlines, layers in colour and centre lines.
 
 use clap::Args;
 use npr_trace::TraceOptions;
@@ -28,7 +28,7 @@ pub struct TraceFormArguments {
 }
 
 impl TraceFormArguments {
-    /// The same as options of the library; specks as for outlines.
+    /// The options for tracing centre lines. The size of specks is that of `outlines`.
     pub fn centreline_options(&self, outlines: &TraceOptions) -> CentrelineOptions {
         CentrelineOptions {
             turd_size: outlines.turd_size,

@@ -1,4 +1,4 @@
-//! What the user said about smoke.
+//! The arguments about volumes of smoke.
 
 use super::Point;
 use clap::{Args, ValueEnum};
@@ -52,7 +52,7 @@ pub struct VolumeArguments {
 }
 
 impl VolumeArguments {
-    /// A style of smoke with what the user said in place of its own values.
+    /// The style of smoke with the arguments in place of its own values.
     pub fn over(&self, style: &SmokeStyle) -> SmokeStyle {
         let mut style = style.clone();
         if let Some(particles) = self.particles {
@@ -78,7 +78,7 @@ pub enum ParticlesName {
     Published,
 }
 
-/// A ball that smoke comes from.
+/// The sphere that smoke comes from, in the file's own world space.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Emitter {
     center: Point,
@@ -121,12 +121,13 @@ pub enum VolumeUp {
     Z,
 }
 
-/// A volume as the user names it, and where it goes.
+/// A volume as the user names it, with its placement.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlacedVolume {
     /// A file, a series, or a built-in source.
     pub name: PathBuf,
-    /// Where the middle of its lowest plane goes, and how much larger it becomes; where it lies without.
+    /// Position of the middle of its lowest plane, and factor on its size. `None` leaves the volume where its file
+    /// puts it.
     pub place: Option<(Point, f32)>,
 }
 
@@ -138,7 +139,7 @@ impl FromStr for PlacedVolume {
             let mut bytes = text.bytes();
             !text.is_empty() && bytes.all(|byte| b"0123456789+-.,*eE ".contains(&byte))
         };
-        // Names of files may hold the sign too.
+        // File names may contain an @ too.
         match text.rsplit_once('@') {
             Some((name, place)) if is_place(place) => Ok(Self {
                 name: PathBuf::from(name),
@@ -152,7 +153,7 @@ impl FromStr for PlacedVolume {
     }
 }
 
-/// `x,y,z` or `x,y,z*scale`.
+/// Parses `x,y,z` or `x,y,z*scale`.
 fn placement(text: &str) -> Result<(Point, f32), String> {
     let (point, scale) = text.split_once('*').unwrap_or((text, "1"));
     let point = point
@@ -164,7 +165,7 @@ fn placement(text: &str) -> Result<(Point, f32), String> {
     }
 }
 
-/// A density.
+/// Parses a density, 0 or more.
 fn threshold(text: &str) -> Result<f32, String> {
     match text.parse::<f32>() {
         Ok(density) if density >= 0.0 && density.is_finite() => Ok(density),

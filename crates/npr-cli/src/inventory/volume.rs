@@ -1,4 +1,4 @@
-//! What is in a file of volumes.
+//! The contents of a volume file.
 
 use super::words::{decimals_for, list, point};
 use crate::fault::Fault;
@@ -10,7 +10,7 @@ use serde::Serialize;
 use std::fmt::Write;
 use std::path::Path;
 
-/// What is in a file of volumes, what of it becomes smoke and what is ignored.
+/// The contents of a volume file: its grids, what becomes smoke and what is ignored.
 #[derive(Debug, Clone, Serialize)]
 pub struct VolumeInventory {
     /// The file as the user named it.
@@ -18,9 +18,9 @@ pub struct VolumeInventory {
     format: String,
     bytes: u64,
     grids: Vec<GridEntry>,
-    /// Of the voxels that become smoke, in the world; none where there are none.
+    /// Bounding box, in world space, of the voxels that become smoke; `None` where there are none.
     bounds: Option<super::Bounds>,
-    /// Voxels of the dense box that smoke is made of.
+    /// Size, in voxels, of the dense box that smoke is made of.
     size: Option<[usize; 3]>,
     /// What is ignored, and why.
     ignored: Vec<String>,
@@ -33,18 +33,18 @@ struct GridEntry {
     kind: String,
     half_floats: bool,
     class: &'static str,
-    /// What becomes of it.
+    /// The role of the grid in drawing smoke; `None` where it is not drawn.
     used_as: Option<&'static str>,
-    /// Of the box of active voxels.
+    /// Size, in voxels, of the box around the active voxels.
     size: Option<[usize; 3]>,
     active_voxel_count: Option<u64>,
-    /// Sides of a voxel in the world.
+    /// Side lengths of a voxel, in world units.
     voxel_size: Option<[f64; 3]>,
-    /// World from index, column by column.
+    /// Matrix from index space to world space, column by column.
     transform: Option<[[f64; 3]; 4]>,
     /// Least and greatest active value; of vectors, of their lengths.
     range: Option<[f32; 2]>,
-    /// Active values that are infinite or no numbers.
+    /// Number of active values that are infinite or NaN.
     unusable_value_count: usize,
 }
 
@@ -192,7 +192,7 @@ impl GridEntry {
         }
     }
 
-    /// Reads a grid where its type is one that is read.
+    /// Describes a grid, and measures its values where their type is supported.
     fn of(file: &File<'_>, place: usize, info: &GridInfo) -> Result<Self, VolumeFault> {
         // Tell what the file states.
         let transform = info.transform.as_ref().ok();
@@ -292,7 +292,7 @@ fn length(vector: [f32; 3]) -> f32 {
     vector.iter().map(|part| part * part).sum::<f32>().sqrt()
 }
 
-/// Least and greatest of some numbers.
+/// The least and greatest of some numbers, and how many were not finite.
 #[derive(Debug, Clone, Copy, Default)]
 struct Range {
     range: Option<[f32; 2]>,

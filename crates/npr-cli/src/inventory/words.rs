@@ -1,4 +1,4 @@
-//! An inventory in words. Names are escaped where they could upset a terminal.
+//! Prints an inventory in words. Characters of names that could upset a terminal are escaped.
 
 use super::{Bounds, Drawn, Image, Inventory, Material, Named, Skin};
 use crate::message::{name, plain};
@@ -77,7 +77,8 @@ impl Inventory {
     }
 }
 
-/// Numbers of triangles and of line segments, as far as there are any; no triangles where there is neither.
+/// The numbers of triangles and line segments in words. A number of 0 is left out; where both are 0, the text is
+/// `0 triangles`.
 fn counted(triangles: usize, segments: usize) -> String {
     match (triangles, segments) {
         (_, 0) => format!("{triangles} triangles"),
@@ -86,7 +87,7 @@ fn counted(triangles: usize, segments: usize) -> String {
     }
 }
 
-/// A line per entry, the first few of them.
+/// Appends a line for each of the first `LISTED` entries, and one with the number of the others.
 pub(super) fn list(text: &mut String, what: &str, entries: impl IntoIterator<Item = String>) {
     let mut entries = entries.into_iter();
     for entry in entries.by_ref().take(LISTED) {
@@ -151,7 +152,7 @@ pub(super) fn point([x, y, z]: [f32; 3], decimals: usize) -> String {
     format!("{x:.decimals$},{y:.decimals$},{z:.decimals$}")
 }
 
-/// Decimal places that show a box to about five digits of its longest side.
+/// Number of decimal places that shows about five digits of a box's longest side.
 pub(super) fn decimals_for(min: [f32; 3], max: [f32; 3]) -> usize {
     let longest = (0..3).map(|axis| max[axis] - min[axis]).fold(0.0, f32::max);
     (0..12)

@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use std::io::Cursor;
 use std::sync::OnceLock;
 
-/// What happens to a file.
+/// A change that damages a file.
 #[derive(Debug, Clone)]
 enum Damage {
     /// A byte becomes another one; half of the time one of the first hundred, where headers are.
@@ -97,16 +97,17 @@ fn files(format: ImageFormat) -> Vec<Vec<u8>> {
     files
 }
 
-/// One pixel of a palette of one colour.
+/// A PNG file of one pixel, with a palette of one colour.
 const PALETTE_PNG: &[u8] =
     b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\x01\0\0\0\x01\x08\x03\0\0\0\x28\xcb\x34\xbb\
     \0\0\0\x03PLTE\0\0\0\xa7\x7a\x3d\xda\
     \0\0\0\x0aIDATx\x9cc\x60\0\0\0\x02\0\x01\x48\xaf\xa4\x71\0\0\0\0IEND\xae\x42\x60\x82";
 
-/// The same with five bytes where colours have three each: its decoder panics.
+/// A PNG file with a palette of five bytes, where every colour takes three: its decoder panics.
 const SHORT_PALETTE_PNG: &[u8] = include_bytes!("../../tests/data/palette_of_5_bytes.png");
 
-/// The check sums of a PNG's chunks, made good: else every change behind the header is refused as one of them.
+/// The file with correct check sums for all PNG chunks. Otherwise decoders refuse every change for its check sum
+/// alone.
 fn with_sums(mut file: Vec<u8>) -> Vec<u8> {
     let mut at = 8;
     while let Some(length) = file.get(at..at + 4) {
@@ -131,7 +132,7 @@ fn crc32(bytes: &[u8]) -> u32 {
     })
 }
 
-/// Reads a file in every way, which may be refused only as broken input or by a limit, in plain words.
+/// Decodes a file in every way. It may be refused only as broken input or by a limit, in plain words.
 fn survives(file: &[u8], limits: &Limits) -> Result<(), TestCaseError> {
     let refused = [
         decode(file, limits).err(),
@@ -179,7 +180,7 @@ fn check(
     survives(&file, &limits)
 }
 
-/// One test a format. More mutants than these come of `PROPTEST_CASES`.
+/// Declares one test for each format. `PROPTEST_CASES` raises the number of mutants.
 macro_rules! mutants_of {
     ($($name:ident: $format:ident,)*) => {
         proptest! {

@@ -1,4 +1,4 @@
-//! What goes wrong with volumes, in the words of the command.
+//! Turns errors about volumes into faults of the command.
 
 use crate::fault::{Exit, Fault};
 use crate::message::quoted;
@@ -8,7 +8,7 @@ use npr_smoke::file::VolumeFault;
 use npr_smoke::film::{Numbered, SeriesError};
 use npr_smoke::solver::SmokeError;
 
-/// A fault of a volume called `name`, which is quoted.
+/// The fault for a volume that cannot be read. `name` goes into the message as it is, so paths must be quoted.
 pub fn of_volume(name: &str, fault: VolumeFault) -> Fault {
     let exit = match &fault {
         fault if fault.is_limit() => Exit::Limit,
@@ -25,7 +25,7 @@ pub fn of_volume(name: &str, fault: VolumeFault) -> Fault {
     Fault::new(exit, format!("cannot read {name}: {fault}{remedy}"))
 }
 
-/// A fault of a series, told by the names of its files.
+/// The fault for a series of files. The message names the file at fault.
 pub fn of_series(series: &Numbered, error: SeriesError<Fault>) -> Fault {
     let name = |frame: u32| quoted(&series.path(frame));
     match error {
@@ -41,7 +41,7 @@ pub fn of_series(series: &Numbered, error: SeriesError<Fault>) -> Fault {
     }
 }
 
-/// A memory limit that smoke hits.
+/// The fault for smoke that exceeds the memory limit.
 pub fn limit_of(error: &OverBudget) -> Fault {
     Fault::new(Exit::Limit, format!("{error}; --memory-limit lifts that"))
 }

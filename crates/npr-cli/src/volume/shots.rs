@@ -1,15 +1,16 @@
-//! Which moments of a volume are drawn.
+//! The moments of a volume that are drawn.
 
-/// Frames from one picture to the next where nothing is said.
+/// Default number of frames from one picture to the next.
 pub const DEFAULT_STEP: f64 = 1.0;
 
-/// Frames per second where none are said.
+/// Default number of frames per second.
 pub const DEFAULT_FPS: f32 = 24.0;
 
-/// Which moments of a volume are drawn.
+/// The moments of a volume that are drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Shots {
-    /// First and last frame; a single telling one without.
+    /// First and last frame. `None` for all frames of a series, and for one frame of a simulation that shows the smoke
+    /// well.
     pub frames: Option<(u32, u32)>,
     /// Frames from one picture to the next.
     pub step: f64,

@@ -1,10 +1,10 @@
-//! Where volumes come from, and the style that suits them.
+//! The sources of volumes, and the preset that suits each.
 
 use npr_smoke::Source;
 use npr_smoke::film::Numbered;
 use std::path::{Path, PathBuf};
 
-/// The preset of smoke that has none of its own.
+/// The preset for sources that have no preset of their own.
 pub const USUAL_STYLE: &str = "smoke-cel-2";
 
 /// The preset that suits a source.
@@ -16,16 +16,16 @@ pub fn usual_style(source: &VolumeSource) -> &'static str {
     }
 }
 
-/// Where a volume comes from.
+/// The source of a volume.
 #[derive(Debug, Clone, PartialEq)]
 pub enum VolumeSource {
-    /// The solver.
+    /// The built-in simulation.
     BuiltIn(Source),
     /// One file.
     File(PathBuf),
-    /// Files with numbers.
+    /// A numbered series of files.
     Series(Numbered),
-    /// A file that was read already, and what it is called in messages.
+    /// The name for messages, and the bytes, of a file that was read already.
     Read(String, Vec<u8>),
 }
 

@@ -1,19 +1,19 @@
-//! A key of a style, and all that decides whether it can act.
+//! A key of a style, and everything that decides whether it has an effect.
 
 use crate::key::{lies_in, without_rule};
 use crate::{BackgroundMethod, Look, OutlineMethod, Style, Tone, WidthSource};
 use npr_core::line_source::LineSource;
 
-/// Where a style is drawn.
+/// The output and the scene that a style is used for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Occasion {
-    /// What is made.
+    /// The kind of output.
     pub output: Output,
-    /// What is drawn.
+    /// The facts about the scene.
     pub scene: Facts,
 }
 
-/// What is made.
+/// The kind of output.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Output {
     /// A picture of surfaces and lines.
@@ -33,7 +33,7 @@ pub struct LineOutput {
     pub fill: bool,
 }
 
-/// What a file of lines holds.
+/// The contents of a file of lines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LineForm {
     /// Ink on paper.
@@ -44,7 +44,7 @@ pub enum LineForm {
     Data,
 }
 
-/// What of the things that keys are about a scene has.
+/// Whether a scene has the things that some keys depend on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Facts {
     /// Surfaces or lines of its own.
@@ -70,15 +70,15 @@ impl Facts {
     };
 }
 
-/// A key, and all that decides whether it can act.
+/// A key, and everything that decides whether it has an effect.
 pub(super) struct Case<'a> {
     pub style: &'a Style,
-    /// The key as the style itself has it, also where a rule says it.
+    /// The key, without the prefix `rule.N.` where it is a key of a rule.
     pub key: &'a str,
-    /// Whether a rule says it.
+    /// Whether it is a key of a rule.
     pub is_of_rule: bool,
     pub on: Occasion,
-    /// The looks that parts which the key is about may have.
+    /// The looks that the parts affected by the key may have.
     pub looks: Vec<Look<'a>>,
 }
 
@@ -94,12 +94,12 @@ impl<'a> Case<'a> {
         }
     }
 
-    /// Whether any part may have such a look.
+    /// Whether `is_so` holds for any of the looks.
     pub fn any(&self, is_so: impl Fn(&Look<'_>) -> bool) -> bool {
         self.looks.iter().any(is_so)
     }
 
-    /// The drawing of lines that is made, if one is.
+    /// The drawing of lines, where the output is one.
     pub fn lines(&self) -> Option<LineOutput> {
         match self.on.output {
             Output::Frame => None,
@@ -111,27 +111,27 @@ impl<'a> Case<'a> {
         self.lines().is_none()
     }
 
-    /// Whether it is a drawing of curves that come from there.
+    /// Whether the output is a drawing of lines that `source` finds.
     pub fn is_found_by(&self, source: LineSource) -> bool {
         self.lines().is_some_and(|lines| lines.source == source)
     }
 
-    /// Whether it is a drawing of curves whose file holds that.
+    /// Whether the output is a drawing of lines in the form `form`.
     pub fn is_written_as(&self, form: LineForm) -> bool {
         self.lines().is_some_and(|lines| lines.form == form)
     }
 
-    /// Whether a picture with tones is made, be it to judge lines before it.
+    /// Whether a picture with tones is drawn, as the output or as the background that lines adapt to.
     pub fn has_tones(&self) -> bool {
         self.is_frame() || self.style.contrasts_with_background()
     }
 
-    /// Whether a drawing of curves fills smoke with tones.
+    /// Whether the output is a drawing of lines that fills smoke with tones.
     pub fn fills_smoke(&self) -> bool {
         self.on.scene.smoke && self.lines().is_some_and(|lines| lines.fill)
     }
 
-    /// Whether smoke is drawn, be it its outlines alone.
+    /// Whether smoke is drawn, even if only its outlines are.
     pub fn draws_smoke(&self) -> bool {
         let by_image = |lines: LineOutput| lines.source == LineSource::Image && !lines.fill;
         self.on.scene.smoke && !self.lines().is_some_and(by_image)
@@ -142,20 +142,20 @@ impl<'a> Case<'a> {
         self.key.ends_with(".color")
     }
 
-    /// Whether the key says how letters are painted.
+    /// Whether the key is about the colour or the outlines of letters.
     pub fn is_paint_of_words(&self) -> bool {
         let of_entry = self.key.splitn(3, '.').nth(2).unwrap_or_default();
         let paints = ["color", "outline.width", "second_outline"];
         paints.iter().any(|name| lies_in(of_entry, name))
     }
 
-    /// Whether lines of a frame may be drawn by one of these methods; always in drawings of curves.
+    /// Whether lines of a frame may be drawn by one of these methods. Always true for drawings of lines.
     pub fn is_drawn_by(&self, methods: &[OutlineMethod]) -> bool {
         let by_one = |look: &Look<'_>| look.line_on && methods.contains(&look.line_method);
         !self.is_frame() || self.any(by_one)
     }
 
-    /// Why the methods of a frame's lines do not use a key.
+    /// The reason for a key that the line methods of a frame do not use.
     pub fn methods_reason(&self) -> String {
         let mut names: Vec<String> = Vec::new();
         for look in self.looks.iter().filter(|look| look.line_on) {
@@ -170,12 +170,12 @@ impl<'a> Case<'a> {
         }
     }
 
-    /// Whether any part is drawn with strokes.
+    /// Whether any part may be hatched.
     pub fn hatches(&self) -> bool {
         self.any(|look| matches!(look.ink.tone, Tone::Hatch | Tone::InkHatch | Tone::Auto))
     }
 
-    /// Whether any part minds what lies behind its lines, by one of these rules.
+    /// Whether the lines of any part may adapt to the background by one of these methods.
     pub fn contrasts_by(&self, methods: &[BackgroundMethod]) -> bool {
         self.any(|look| methods.contains(&look.line_background.method))
     }
@@ -192,13 +192,14 @@ impl<'a> Case<'a> {
     }
 }
 
-/// The rule that a key belongs to.
+/// Index of the rule that a key belongs to; `None` for other keys.
 fn rule_of(key: &str) -> Option<usize> {
     let (rule, _) = key.strip_prefix("rule.")?.split_once('.')?;
     rule.parse().ok()
 }
 
-/// The looks that parts may have: the style's own, with each rule, and with all; for a key of a rule those with it.
+/// The looks that parts may have: the style's own look, that look with each single rule, and with all rules. For a key
+/// of the rule `of_rule`, all of them have that rule too.
 fn looks(style: &Style, of_rule: Option<usize>) -> Vec<Look<'_>> {
     let own = Look::plain(style);
     let own = match of_rule.and_then(|i| style.rule.get(i)) {

@@ -1,4 +1,4 @@
-//! The table of keys that cannot act: which, when and why. What stands here is told to users.
+//! The table of keys that have no effect: which, when and why. Its reasons are printed for users.
 
 use super::case::{Case, LineForm};
 use crate::OutlineMethod::{
@@ -12,22 +12,22 @@ use crate::{
 use npr_core::geometry::Part;
 use npr_core::line_source::LineSource;
 
-/// Keys that cannot act where something is so.
+/// Keys that have no effect under a condition.
 pub(super) struct Entry {
-    /// Keys as the style itself has them, whether it says them or a rule; with all within, and with `*` at the end all
-    /// that begin so.
+    /// The keys, without the prefix `rule.N.` for keys of rules. A table or list covers all keys within it. A `*` at
+    /// the end covers all keys that begin with what stands before.
     pub keys: &'static [&'static str],
-    /// Where they cannot act.
+    /// The condition under which they have no effect.
     pub is_idle: fn(&Case<'_>) -> bool,
-    /// What is said.
+    /// The reason, as the notice states it.
     pub why: Why,
 }
 
-/// What is said of a key that cannot act.
+/// The reason why a key has no effect.
 pub(super) enum Why {
-    /// This.
+    /// This text.
     Told(&'static str),
-    /// That the methods which draw lines do not use it.
+    /// The line methods of the frame do not use it; the text names them.
     Methods,
 }
 
@@ -43,7 +43,7 @@ const fn entry(
     }
 }
 
-/// Keys that lines of frames use by some methods alone.
+/// Keys that only some line methods of frames use.
 const fn of_methods(keys: &'static [&'static str], is_idle: fn(&Case<'_>) -> bool) -> Entry {
     Entry {
         keys,
@@ -56,10 +56,10 @@ const OFF: BackgroundMethod = BackgroundMethod::Off;
 const PUBLISHED: BackgroundMethod = BackgroundMethod::Published;
 const CONTRAST: BackgroundMethod = BackgroundMethod::Contrast;
 
-/// What in `line.paint` looks at light.
+/// The flags of `line.paint` that depend on light.
 const LIT: u32 = Part::LINE_LIGHT | Part::LINE_OPACITY | Part::LINE_WIDTH;
 
-/// The first entry that covers a key and holds is told.
+/// All entries. The first one that covers a key and whose condition holds gives the reason.
 pub(super) const ENTRIES: &[Entry] = &[
     // The scene lacks what the key is about.
     entry(&["smoke"], |c| !c.on.scene.smoke, "the scene has no smoke"),
@@ -96,7 +96,7 @@ pub(super) const ENTRIES: &[Entry] = &[
         |c| !c.on.scene.vertex_colors,
         "the scene has no vertex colours",
     ),
-    // Drawings of curves hold lines alone.
+    // Drawings of lines have nothing but lines.
     entry(
         &["line.method"],
         |c| !c.is_frame(),
@@ -271,7 +271,7 @@ pub(super) const ENTRIES: &[Entry] = &[
         |c| !c.is_frame() || !c.is_drawn_by(&[Shape, Okuya, Hull, FilterHull, Edges]),
         "lines as curves do not follow a texture, and have the full width",
     ),
-    // Lines of frames use keys by their method.
+    // Only some line methods of frames use these keys.
     of_methods(
         &[
             "line.color",
@@ -376,7 +376,7 @@ pub(super) const ENTRIES: &[Entry] = &[
         |c| c.style.detect.scale == 1.0,
         "detect.scale is 1",
     ),
-    // Lines wait for another key.
+    // These keys of lines depend on another key.
     entry(
         &["line.width.gain"],
         |c| !c.width_is_of(&[WidthSource::Curvature, WidthSource::ProjectedCurvature]),
@@ -477,7 +477,7 @@ pub(super) const ENTRIES: &[Entry] = &[
         |c| !c.any(|look| look.line_background.start == LineStart::Rim),
         "line.background.start is line",
     ),
-    // Tones wait for another key.
+    // These keys of tones depend on another key.
     entry(
         &["shade.paper"],
         |c| c.style.shade.mode != ShadeMode::Paper,
@@ -646,7 +646,7 @@ pub(super) const ENTRIES: &[Entry] = &[
         |c| !c.style.blend.shows(),
         "blend.amount is 1",
     ),
-    // Smoke waits for another key, or is drawn for comparison.
+    // These keys of smoke depend on another key, or the methods for comparison do not use them.
     entry(
         &[
             "smoke.sigma",
