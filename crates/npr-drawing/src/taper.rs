@@ -282,7 +282,7 @@ impl Ends {
     fn near(&self, a: [f64; 2], b: [f64; 2], reach: f64, mut visit: impl FnMut(&End)) {
         // Walk along the piece, a cell's width a step.
         let length = distance(a, b);
-        if !(length <= LONGEST_PX) {
+        if length.is_nan() || length > LONGEST_PX {
             return;
         }
         let steps = (length / CELL_PX).ceil().max(1.0) as usize;

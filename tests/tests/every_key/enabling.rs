@@ -152,6 +152,14 @@ const ENABLING: &[(&str, &[&str], &str)] = &[
         "it is about the second layer",
     ),
     (
+        "line.width.short",
+        &[
+            "rule=[{ match = { object = 'Box' }, line = { on = false } }]",
+            "line.kinds.intersection=false",
+        ],
+        "other lines meet that of the ball",
+    ),
+    (
         "line.width.taper",
         &[
             "line.width.taper.start='12px'",

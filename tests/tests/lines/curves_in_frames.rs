@@ -6,7 +6,7 @@ use npr_render::{
     Frame, LineModel, LineModelOptions, LineRenderer, Model, Renderer, RendererOptions,
 };
 use npr_scene::Scene;
-use npr_stylesheet::Style;
+use npr_stylesheet::{Length, Style, TaperEnds, Unit};
 use npr_tests::comic::{SIZE, front};
 use npr_tests::{Ink, Object, lines, placed, scene_of};
 
@@ -81,6 +81,34 @@ fn without_a_line_model_they_are_left_out_and_told_of() {
         ["lines as curves are left out: no line model was given"]
     );
     assert!(drawn(&lines("shape"), false).notices.is_empty());
+}
+
+/// The right ball's outline ends at that of the left one, twice; no other line ends.
+#[test]
+fn lines_taper_at_free_ends_or_at_all() {
+    let px = |value: f32| Length {
+        value,
+        unit: Unit::Px,
+    };
+    let tapered = |length: f32, ends: TaperEnds| {
+        let mut style = lines("curves");
+        style.line.width.base = px(8.0);
+        let taper = &mut style.line.width.taper;
+        (taper.start, taper.end, taper.ends) = (px(length), px(length), ends);
+        drawn(&style, true)
+    };
+    let plain = tapered(0.0, TaperEnds::All);
+    assert!(tapered(30.0, TaperEnds::Free).rgba == plain.rgba);
+    let all = tapered(30.0, TaperEnds::All);
+    // Ink goes, and only where the outlines cross: right of the left ball's middle, above and below.
+    let [before, after] = [&plain, &all].map(Ink::of);
+    let lost: Vec<[f32; 2]> = before.without(&after.grown(1)).centers().collect();
+    assert!(lost.len() > 8 && after.without(&before.grown(1)).count() == 0);
+    let is_near_end = |[x, y]: &[f32; 2]| {
+        let [dx, dy] = [x - 144.0, y - 120.0];
+        dx.abs() < 36.0 && (10.0..70.0).contains(&dy.abs())
+    };
+    assert!(lost.iter().all(is_near_end), "{lost:?}");
 }
 
 /// Strokes from pixels are drawn over surfaces as curves are, and cover about as much.

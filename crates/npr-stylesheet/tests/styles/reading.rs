@@ -75,8 +75,9 @@ fn every_value_of_a_preset_has_a_remark() {
 }
 
 /// Presets whose shade is ink, strokes or dots, and those they are weighed against.
-const WITH_ADVICE: [&str; 10] = [
+const WITH_ADVICE: [&str; 11] = [
     "ink",
+    "g-pen",
     "comic-silver",
     "comic-modern",
     "simple-comic",
