@@ -303,7 +303,8 @@ proptest! {
         places in prop::collection::vec(prop::array::uniform2(prop_oneof![
             any::<f64>(), Just(f64::NAN), Just(f64::INFINITY), -1e7..1e7f64, Just(50.0),
         ]), 0..6),
-        width in prop_oneof![any::<f64>(), Just(1e30), Just(f64::NAN)], length in prop_oneof![any::<f64>(), 0.0..9.0f64],
+        width in prop_oneof![any::<f64>(), Just(1e30), Just(f64::NAN)],
+        length in prop_oneof![any::<f64>(), 0.0..9.0f64],
     ) {
         let taper = Taper { lengths_px: [length; 2], ..PLAIN };
         let line = stroke(&[[10.0, 50.0], [90.0, 50.0]], 3.0);
