@@ -61,8 +61,8 @@ impl Taper {
     }
 }
 
-/// Thins the visible strokes for which `is_tapered` is true, in a picture of `size` pixels, and removes the specks among
-/// them.
+/// Thins the visible strokes for which `is_tapered` is true, in a picture of `size` pixels, and removes the specks
+/// among them.
 ///
 /// Lengths are along the stroke in the picture, so a taper looks the same from every side. Points are added where the
 /// width changes; those that were there stay. Rings have no ends, but may be specks. The stroke's own far side counts
