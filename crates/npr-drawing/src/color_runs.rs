@@ -159,9 +159,9 @@ fn refined(points: &[StrokePoint], closed: bool, other: [u8; 4]) -> Vec<StrokePo
     chain
 }
 
-/// The point a share of the way from one to another.
+/// The point a share of the way from one to another. What both have in common stays as it is, to the bit.
 pub(crate) fn point_between(a: &StrokePoint, b: &StrokePoint, t: f64) -> StrokePoint {
-    let mix = |a: f64, b: f64| a * (1.0 - t) + b * t;
+    let mix = |a: f64, b: f64| if a == b { a } else { a * (1.0 - t) + b * t };
     StrokePoint {
         position: std::array::from_fn(|i| mix(a.position[i], b.position[i])),
         depth: mix(a.depth, b.depth),

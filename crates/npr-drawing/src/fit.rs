@@ -326,7 +326,7 @@ fn is_straight(points: &[Point], limit: f64) -> bool {
 }
 
 /// Square of the distance between a point and a segment.
-fn distance2_to_segment(p: Point, a: Point, b: Point) -> f64 {
+pub(crate) fn distance2_to_segment(p: Point, a: Point, b: Point) -> f64 {
     let (along, out) = (b - a, p - a);
     let length2 = along.hypot2();
     if length2 == 0.0 {

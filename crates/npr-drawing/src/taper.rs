@@ -3,7 +3,10 @@
 //! An end is free where it meets no other line: where a contour ends in a cusp, a crease runs out, or a line of the
 //! file stops. Elsewhere a line goes on or ends on another one, and there a pen is not lifted.
 
+use crate::color_runs::point_between;
+use crate::fit::distance2_to_segment;
 use foldhash::fast::FixedState;
+use kurbo::Point;
 use npr_vector::mesh_lines::run::distance;
 use npr_vector::stroke::{Stroke, StrokePoint};
 use rayon::prelude::*;
@@ -79,7 +82,10 @@ pub fn taper_strokes(
 
     // Thin the ends, and all of what is short.
     let lengths: Vec<f64> = strokes.par_iter().map(Stroke::length).collect();
-    let is_met = met_ends(strokes, &lengths, size);
+    let is_met = match taper.at_all_ends && taper.short_px <= 0.0 {
+        true => vec![[false; 2]; strokes.len()],
+        false => met_ends(strokes, &lengths, size),
+    };
     let ends = lengths.par_iter().zip(is_met);
     let all = strokes.par_iter_mut().zip(ends);
     let is_left = all.map(|(stroke, (length, is_met))| {
@@ -146,7 +152,7 @@ fn thin(stroke: &mut Stroke, length: f64, reach: [f64; 2], taper: &Taper) {
         while let Some(at) = added.next_if(|at| *at < next - TOO_NEAR_PX) {
             if at > along + TOO_NEAR_PX {
                 let share = (at - along) / (next - along);
-                points.push(thinned(between(&pair[0], &pair[1], share), at));
+                points.push(thinned(point_between(&pair[0], &pair[1], share), at));
             }
         }
         along = next;
@@ -158,22 +164,9 @@ fn thin(stroke: &mut Stroke, length: f64, reach: [f64; 2], taper: &Taper) {
 /// Distance from a point, in pixels, within which no other is added.
 const TOO_NEAR_PX: f64 = 1e-3;
 
-/// A point on the straight way between two.
-fn between(a: &StrokePoint, b: &StrokePoint, share: f64) -> StrokePoint {
-    let mix = |a: f64, b: f64| a + (b - a) * share;
-    StrokePoint {
-        position: [0, 1].map(|i| mix(a.position[i], b.position[i])),
-        depth: mix(a.depth, b.depth),
-        width: mix(a.width, b.width),
-        u: mix(a.u, b.u),
-        world: [0, 1, 2].map(|i| a.world[i] + (b.world[i] - a.world[i]) * share as f32),
-        color: a.color,
-    }
-}
-
 /// For the start and the end of every stroke whether a visible line or the border of the picture meets it.
 fn met_ends(strokes: &[Stroke], lengths: &[f64], size: [u32; 2]) -> Vec<[bool; 2]> {
-    // Sort the ends into cells as wide as the farthest line reaches.
+    // Sort the ends into cells of the picture.
     let ends = Ends::new(strokes);
 
     // Note those that lines pass.
@@ -189,7 +182,9 @@ fn met_ends(strokes: &[Stroke], lengths: &[f64], size: [u32; 2]) -> Vec<[bool; 2
                 let is_own = end.stroke as usize == number
                     && !stroke.closed
                     && end.arc_from(along, next, lengths[number]) < 4.0 * touch;
-                if !is_own && gap(end.position, a.position, b.position) <= touch {
+                let places = [end.position, a.position, b.position];
+                let [place, a, b] = places.map(|[x, y]| Point::new(x, y));
+                if !is_own && distance2_to_segment(place, a, b) <= touch * touch {
                     is_met[end.stroke as usize][end.side].store(true, Ordering::Relaxed);
                 }
             });
@@ -310,19 +305,6 @@ const LONGEST_PX: f64 = 1e6;
 
 fn cell_of(position: [f64; 2]) -> [i32; 2] {
     position.map(|v| (v / CELL_PX).floor() as i32)
-}
-
-/// Distance of a place from a straight piece.
-fn gap(place: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
-    let along = [b[0] - a[0], b[1] - a[1]];
-    let to = [place[0] - a[0], place[1] - a[1]];
-    let square = along[0] * along[0] + along[1] * along[1];
-    let share = if square > 0.0 {
-        ((to[0] * along[0] + to[1] * along[1]) / square).clamp(0.0, 1.0)
-    } else {
-        0.0
-    };
-    distance(to, along.map(|v| v * share))
 }
 
 #[cfg(test)]

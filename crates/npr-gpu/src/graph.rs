@@ -499,7 +499,7 @@ impl Graph {
 }
 
 /// Texels of a picture of this width and height.
-fn area([width, height]: [u32; 2]) -> usize {
+pub(crate) fn area([width, height]: [u32; 2]) -> usize {
     width as usize * height as usize
 }
 

@@ -5,7 +5,7 @@ use super::ranking::{RankedLists, Scheme, add_ranking};
 use super::sums::{Compacted, Scan, add_compact, add_scan};
 use super::work::{IndirectArguments, ListWork, add_work};
 use crate::engine::{Readings, Session};
-use crate::graph::{Graph, ResourceId};
+use crate::graph::{Graph, ResourceId, area};
 use crate::pass::Format;
 use crate::passes::{pixels, vector};
 use npr_mesh::half_edge::HalfEdgeMesh;
@@ -227,7 +227,7 @@ fn add_picture(
 
     // Test which of them are seen.
     let shown = graph.buffer::<u32>("fragments shown", room);
-    let ink = graph.buffer::<u32>("ink", pixel_count(size).div_ceil(BITS_A_WORD));
+    let ink = graph.buffer::<u32>("ink", area(size).div_ceil(BITS_A_WORD));
     let bound = [view, surfaces, occluder_depths, fragments, shown, ink];
     graph.compute_sized(&pixels::TEST_FRAGMENTS, &bound, work.elements());
 
@@ -246,10 +246,6 @@ fn add_picture(
     }
 }
 
-fn pixel_count([width, height]: [u32; 2]) -> usize {
-    width as usize * height as usize
-}
-
 /// Marks, counts and links the sides of the picture's pixels; gives these and the sizes of passes over them.
 fn add_sides(
     graph: &mut Graph,
@@ -258,7 +254,7 @@ fn add_sides(
     (room, scheme): (usize, Scheme),
 ) -> (ResourceId, ResourceId, ResourceId, ListWork) {
     // Count them.
-    let word_count = pixel_count(size).div_ceil(PIXELS_A_WORD);
+    let word_count = area(size).div_ceil(PIXELS_A_WORD);
     let masks = graph.buffer::<u32>("side masks", word_count);
     let counts = graph.buffer::<u32>("sides of words", word_count);
     graph.compute(&pixels::MARK_SIDES, &[view, picture.ink, masks, counts]);
