@@ -98,6 +98,8 @@ shaders! {
     LINE_STAMP_RESIDUAL = "line/stamp_residual";
     /// Draws the mask itself.
     LINE_DRAW_MASK = "line/draw_mask";
+    /// Draws strokes with width.
+    STROKE_DRAW_STROKES = "stroke/draw_strokes";
     /// Decides which faces are turned to the eye.
     VECTOR_FACE_EYE = "vector/face_eye";
     /// Marks the half-edges on contours.

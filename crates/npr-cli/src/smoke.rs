@@ -422,6 +422,11 @@ mod tests {
             self.0.write(id, words)
         }
 
+        fn grow(&mut self, id: ResourceId, count: usize) -> Result<(), EngineError> {
+            self.check()?;
+            self.0.grow(id, count)
+        }
+
         fn submit(&mut self, ids: &[ResourceId]) -> Result<(), EngineError> {
             self.check()?;
             self.1.set(self.1.get() - 1);

@@ -82,6 +82,16 @@ impl View {
         1.0 / self.pixel_at(depth)
     }
 
+    /// 1 at the near plane, falling with depth to 0; in a parallel view, whose near plane may lie behind the eye, a half.
+    #[inline]
+    pub fn nearness(&self, depth: f32) -> f32 {
+        if self.perspective < 0.5 {
+            0.5
+        } else {
+            self.near / depth.max(self.near)
+        }
+    }
+
     /// The reversed depth of a view depth: 1 on the near plane, less behind it.
     #[inline]
     pub fn reversed_of(&self, depth: f32) -> f32 {

@@ -78,15 +78,13 @@ fn clip_segment(
     })
 }
 
-/// The point at share `t` of a segment, kept in the box against rounding.
+/// The point at share `t` of a segment, kept in the box against rounding: far from it, either end may be meant.
 fn between(a: &StrokePoint, b: &StrokePoint, t: f64, low: [f64; 2], high: [f64; 2]) -> StrokePoint {
-    if t == 0.0 {
-        return *a;
-    }
-    if t == 1.0 {
-        return *b;
-    }
-    let mut point = point_between(a, b, t);
+    let mut point = match t {
+        0.0 => *a,
+        1.0 => *b,
+        _ => point_between(a, b, t),
+    };
     for (i, v) in point.position.iter_mut().enumerate() {
         *v = v.clamp(low[i], high[i]);
     }

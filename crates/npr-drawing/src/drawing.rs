@@ -49,18 +49,6 @@ fn paint(artwork: &Artwork, size: [u32; 2]) -> Vec<u8> {
         .collect()
 }
 
-/// Paints a drawing over a picture of its size, as [`paint_over`] paints marks; its page and ground are ignored.
-pub fn paint_drawing_over(drawing: &Drawing, options: &ArtworkOptions, rgba: &mut [u8]) {
-    let options = ArtworkOptions {
-        page: None,
-        ..options.clone()
-    };
-    let layers = arrange(drawing, &options).layers.into_iter();
-    let groups = layers.flat_map(|layer| layer.groups);
-    let marks: Vec<Mark> = groups.flat_map(|group| group.marks).collect();
-    paint_over(&marks, rgba, drawing.size);
-}
-
 /// Paints marks over a picture of `size` pixels: rows from the top, sRGB bytes with straight alpha.
 ///
 /// Edges are blended in sRGB, as in [`rasterise`] and in viewers of SVG. Pixels that no mark reaches keep their bytes.

@@ -78,6 +78,20 @@ pub trait Session {
     /// [`EngineError`] where the device is lost.
     fn write(&mut self, id: ResourceId, words: &[u32]) -> Result<(), EngineError>;
 
+    /// Makes room in a buffer for `count` elements, where it has less; nothing else of the graph changes. Runs in flight
+    /// keep the memory that they started with.
+    ///
+    /// What a buffer held is gone where it grows: it is all zero, as at first.
+    ///
+    /// # Errors
+    ///
+    /// [`EngineError`] where the device refuses the memory or is lost; the session is as it was then.
+    ///
+    /// # Panics
+    ///
+    /// Where the resource is no buffer.
+    fn grow(&mut self, id: ResourceId, count: usize) -> Result<(), EngineError>;
+
     /// Starts a run of every node, in order, and of the reading of resources, each named once, after those that were
     /// started before. [`Session::collect`] gives what comes of it.
     ///
@@ -171,6 +185,10 @@ pub trait Session {
 impl Session for Box<dyn Session> {
     fn write(&mut self, id: ResourceId, words: &[u32]) -> Result<(), EngineError> {
         self.as_mut().write(id, words)
+    }
+
+    fn grow(&mut self, id: ResourceId, count: usize) -> Result<(), EngineError> {
+        self.as_mut().grow(id, count)
     }
 
     fn submit(&mut self, ids: &[ResourceId]) -> Result<(), EngineError> {

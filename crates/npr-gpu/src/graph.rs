@@ -197,6 +197,21 @@ impl Graph {
         self.hold(id, values)
     }
 
+    /// Makes room in a buffer for `count` elements; whether it had less.
+    ///
+    /// # Panics
+    ///
+    /// Where the resource is no buffer.
+    pub fn grow(&mut self, id: ResourceId, count: usize) -> bool {
+        let Resource { name, kind } = &mut self.resources[id.index()];
+        let Kind::Buffer { count: room, .. } = kind else {
+            panic!("'{name}' is no buffer and cannot grow");
+        };
+        let grows = *room < count;
+        *room = count.max(*room);
+        grows
+    }
+
     fn hold<T: NoUninit>(&mut self, id: ResourceId, values: &[T]) -> ResourceId {
         self.constants
             .push((id, bytemuck::cast_slice(values).to_vec()));

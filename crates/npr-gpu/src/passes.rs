@@ -9,6 +9,7 @@ pub mod pixels;
 pub mod raster;
 pub mod shade;
 pub mod smoke;
+pub mod stroke;
 pub mod vector;
 
 /// All passes: each is checked against its shader and its twin.
@@ -31,6 +32,7 @@ pub const ALL: &[&Pass] = &[
     &line::CLAIM_PIXELS,
     &line::STAMP_RESIDUAL,
     &line::DRAW_MASK,
+    &stroke::DRAW_STROKES,
     &vector::FACE_EYE,
     &vector::MARK_CONTOURS,
     &vector::LINK_CONTOURS,

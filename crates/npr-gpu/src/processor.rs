@@ -62,6 +62,14 @@ impl Session for ProcessorSession {
         Ok(())
     }
 
+    fn grow(&mut self, id: ResourceId, count: usize) -> Result<(), EngineError> {
+        if self.graph.grow(id, count) {
+            let words = self.graph.resource(id).word_count();
+            self.memory[id.index()] = vec![0; words];
+        }
+        Ok(())
+    }
+
     fn submit(&mut self, ids: &[ResourceId]) -> Result<(), EngineError> {
         self.done.check_room();
         let nodes = self.graph.nodes().iter();

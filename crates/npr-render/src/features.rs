@@ -13,7 +13,6 @@
 pub(crate) mod background_contrast;
 pub(crate) mod beams;
 pub(crate) mod blending;
-pub(crate) mod curves;
 pub(crate) mod hull;
 pub(crate) mod lettering;
 pub(crate) mod line_features;
@@ -21,3 +20,4 @@ pub(crate) mod screen_lines;
 pub(crate) mod shadows;
 pub(crate) mod smoke;
 pub(crate) mod speed_lines;
+pub(crate) mod strokes;

@@ -2,13 +2,14 @@
 
 use crate::beam_light::beam_lights;
 use crate::error::RenderError;
-use crate::features::background_contrast::{BackgroundContrast, ContrastPasses, Sides};
+use crate::features::background_contrast::{BackgroundContrast, ContrastPasses};
 use crate::features::beams;
 use crate::features::hull;
 use crate::features::line_features::LineFeatures;
 use crate::features::screen_lines::ScreenLines;
 use crate::features::shadows::Shadows;
 use crate::features::smoke::{Measure, SmokeMoment, SmokePasses, hang_sheet};
+use crate::features::strokes::StrokePasses;
 use crate::frame::Frame;
 use crate::frame_graph::{Counts, FrameGraph, Grids, Layers, write};
 use crate::light::{self, ChosenLights};
@@ -28,11 +29,11 @@ use npr_gpu::cost::{PassCost, copy_cost, pass_costs};
 use npr_gpu::engine::{Engine, EngineError, IN_FLIGHT, Session};
 use npr_gpu::graph::{Graph, ResourceId};
 use npr_gpu::pass::Features;
-use npr_style::backdrop::Rules;
 use npr_style::compose::Compose;
 use npr_style::lighting::LightSource;
 use npr_stylesheet::Style;
 use npr_vector::screen::residual::LARGEST_PX;
+use npr_vector::stroke::Drawing;
 
 /// Frame pixels around a tile beyond the reach of its lines: detection looks at neighbours.
 const TILE_ROOM: u32 = 8;
@@ -69,6 +70,7 @@ pub(crate) struct FramePlan {
 pub(crate) struct Passes {
     pub frame: FrameGraph,
     lines: ScreenLines,
+    strokes: Option<StrokePasses>,
     shadows: Shadows,
     pub smoke: Option<SmokePasses>,
     contrast: ContrastPasses,
@@ -88,9 +90,6 @@ pub(crate) struct FrameRenderer<S = Box<dyn Session>> {
 /// A frame that the passes are aimed at, and how many of its tiles they have started to draw.
 pub(crate) struct Aimed {
     pub view: View,
-    pub rules: Rules,
-    /// Whether what lies on both sides of lines is wanted.
-    pub with_sides: bool,
     submitted: u32,
 }
 
@@ -118,10 +117,10 @@ impl Needs {
                 "lines of the file are left out: only line.method curves and potrace draw them";
             styled.inked.notices.push(notice.to_owned());
         }
-        let mut features = match model.triangles.is_empty() {
-            true => LineFeatures::NONE,
-            false => LineFeatures::needs(style),
-        };
+        let mut features = LineFeatures::needs(style);
+        if model.triangles.is_empty() {
+            features = features.without_surfaces();
+        }
         features.contrast = contrast.is_on;
 
         // Cut the frame into tiles, with as much room around each as lines and smoke reach.
@@ -263,6 +262,10 @@ impl Passes {
         let shadows = Shadows::plan(&mut frame, shadow_count, counts.vertices, fall_on_smoke);
         frame.draw_ids(frame.color_window, frame.ids, frame.depths);
         let lines = ScreenLines::plan(&mut frame, grids, counts.edges, features);
+        let targets = [lines.ribbons, lines.keys];
+        let strokes = features
+            .strokes
+            .then(|| StrokePasses::plan(&mut frame, targets, !features.ribbons));
         if features.hull {
             hull::plan(&mut frame, counts.vertices);
         }
@@ -293,6 +296,7 @@ impl Passes {
         let passes = Self {
             frame,
             lines,
+            strokes,
             shadows,
             smoke,
             contrast,
@@ -427,11 +431,6 @@ impl<S: Session> FrameRenderer<S> {
         placement::around(model.bounds(), smoke)
     }
 
-    /// Whether the passes find what lies on both sides of lines, for lines that are drawn over the picture.
-    pub fn finds_sides(&self) -> bool {
-        self.plan.needs.features.contrast
-    }
-
     /// Whether a frame goes on from the one before: not the first, nor after a cut. Tiles of a frame share their
     /// buffers, so they never do.
     fn follows(&self, view: &View, model: &Model) -> bool {
@@ -444,8 +443,13 @@ impl<S: Session> FrameRenderer<S> {
         tiles.kept == tiles.frame && turned > CUT_COS && moved < CUT_RADII * model.radius()
     }
 
-    /// Hands over how a camera sees the scene.
-    pub fn aim(&mut self, model: &Model, camera: &Camera) -> Result<(View, Rules), RenderError> {
+    /// Hands over how a camera sees the scene, and the strokes that were found in this view.
+    pub fn aim(
+        &mut self,
+        model: &Model,
+        camera: &Camera,
+        strokes: &[Drawing],
+    ) -> Result<View, RenderError> {
         let bounds = self.bounds(model);
         let FramePlan {
             style,
@@ -509,8 +513,15 @@ impl<S: Session> FrameRenderer<S> {
             passes.upload_view(session, &moment)?;
         }
         self.turn_strokes(model, &light::strongest(&lights), camera)?;
+        let FramePlan {
+            options, passes, ..
+        } = &mut self.plan;
+        if let Some(inked) = &passes.strokes {
+            let (graph, seen) = (&mut passes.frame.graph, (&view, strokes));
+            inked.upload_view(&mut self.session, graph, seen, options.memory_limit)?;
+        }
         self.before = Some(view);
-        Ok((view, rules))
+        Ok(view)
     }
 
     /// Turns the strokes that follow the light to the strongest one.
@@ -552,23 +563,18 @@ impl<S: Session> FrameRenderer<S> {
         passes.contrast.upload_tile(session, view, corner, size)
     }
 
-    /// Hands over how a camera sees the scene, and starts to draw as many tiles as the engine takes at once, with what
-    /// lies on both sides of lines where that is wanted.
+    /// Hands over how a camera sees the scene, and the strokes found in this view, and starts to draw as many tiles as
+    /// the engine takes at once.
     ///
     /// A frame of several tiles is taken, all of it, before another is begun.
     pub fn begin(
         &mut self,
         model: &Model,
         camera: &Camera,
-        with_sides: bool,
+        strokes: &[Drawing],
     ) -> Result<Aimed, RenderError> {
-        let (view, rules) = self.aim(model, camera)?;
-        let mut aimed = Aimed {
-            view,
-            rules,
-            with_sides,
-            submitted: 0,
-        };
+        let view = self.aim(model, camera, strokes)?;
+        let mut aimed = Aimed { view, submitted: 0 };
         self.submit_tiles(&mut aimed)?;
         Ok(aimed)
     }
@@ -578,26 +584,19 @@ impl<S: Session> FrameRenderer<S> {
         while self.session.in_flight() < IN_FLIGHT && aimed.submitted < self.plan.tiles().count() {
             let origin = self.plan.tiles().origin(aimed.submitted);
             self.aim_tile(&aimed.view, origin)?;
-            let passes = &self.plan.passes;
-            let mut results = vec![passes.frame.frame];
-            if aimed.with_sides {
-                results.extend(passes.contrast.sides());
-            }
-            self.session.submit(&results)?;
+            self.session.submit(&[self.plan.passes.frame.frame])?;
             aimed.submitted += 1;
         }
         Ok(())
     }
 
     /// Takes the next tile of a frame that was begun, whose kept part starts at `origin`, into a frame that begins
-    /// `top` rows below the whole one, and what lies on both sides of its lines where that was wanted. The tiles
-    /// after it are being drawn meanwhile.
+    /// `top` rows below the whole one. The tiles after it are being drawn meanwhile.
     pub fn take_tile(
         &mut self,
         aimed: &mut Aimed,
         (origin, top): ([u32; 2], u32),
         frame: &mut Frame,
-        sides: Option<&mut Sides>,
     ) -> Result<(), EngineError> {
         // Wait for the tile, and start another: the device draws while the caller works.
         let (times, mut read) = self.session.collect()?;
@@ -609,12 +608,6 @@ impl<S: Session> FrameRenderer<S> {
         let (size, margin, kept) = (tiles.size(), [tiles.margin; 2], tiles.kept);
         let at = [origin[0], origin[1] - top];
         frame.paste(&read.take(passes.frame.frame), size[0], margin, at, kept);
-        if let Some(sides) = sides {
-            let paste = |picture: &mut Frame, texels: &[u32]| {
-                picture.paste(texels, size[0], margin, origin, kept);
-            };
-            passes.contrast.take_sides(&mut read, sides, paste);
-        }
         Ok(())
     }
 

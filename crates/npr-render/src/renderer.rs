@@ -1,11 +1,10 @@
 //! A model, a style and a frame size on an engine, ready to draw.
 
 use crate::error::RenderError;
-use crate::features::background_contrast::Sides;
 use crate::features::blending::Blending;
-use crate::features::curves;
 use crate::features::lettering::Lettering;
 use crate::features::speed_lines::SpeedLines;
+use crate::features::strokes::{self, FoundStrokes};
 use crate::frame::Frame;
 use crate::frame_graph::pixel_count;
 use crate::frame_renderer::{Aimed, FramePlan, FrameRenderer};
@@ -20,7 +19,6 @@ use npr_core::budget::Budget;
 use npr_core::camera::Camera;
 use npr_gpu::cost::PassCost;
 use npr_gpu::engine::{Engine, IN_FLIGHT};
-use npr_style::backdrop::Rules;
 use npr_stylesheet::Style;
 
 /// A model, a style and a frame size on an engine: draws a picture for any camera.
@@ -40,10 +38,9 @@ pub struct Renderer<'a> {
 
 /// A frame that is being drawn, and what finishing it needs: the renderer may be told of the next one meanwhile.
 pub(crate) struct Begun {
-    camera: Camera,
     aimed: Aimed,
-    /// The smoke that lines as curves are hidden by, where there are such lines.
-    smoke: Option<Smoke>,
+    /// The strokes of the frame.
+    strokes: FoundStrokes,
     /// The same frame in the other look of a blend.
     other: Option<Box<Begun>>,
 }
@@ -213,7 +210,8 @@ impl<'a> Renderer<'a> {
             "the frame needs all of its pixels at once"
         );
         self.forget_begun();
-        let mut aimed = self.frames.begin(self.model, camera, false)?;
+        let strokes = self.find_strokes(camera)?;
+        let mut aimed = self.frames.begin(self.model, camera, &strokes.drawings)?;
         let [width, height] = self.frames.plan.options.size;
         let tiles = *self.frames.plan.tiles();
         let mut reported = Frame::new([width, 0]);
@@ -224,7 +222,7 @@ impl<'a> Renderer<'a> {
             let mut band = Frame::new([width, rows]);
             for origin in tiles.origins().filter(|origin| origin[1] == top) {
                 let at = (origin, top);
-                self.frames.take_tile(&mut aimed, at, &mut band, None)?;
+                self.frames.take_tile(&mut aimed, at, &mut band)?;
                 self.tell_of(&tiles, origin);
             }
             reported.add_times(&band.times);
@@ -232,6 +230,7 @@ impl<'a> Renderer<'a> {
                 break;
             }
         }
+        strokes.tell(&mut reported);
         Ok(reported)
     }
 
@@ -264,19 +263,15 @@ impl<'a> Renderer<'a> {
 
     /// Starts to draw the model, and the other look of a blend, as a camera sees it.
     pub(crate) fn begin(&mut self, camera: &Camera) -> Result<Begun, RenderError> {
-        let plan = &self.frames.plan;
-        let has_curves = self.lines.is_some() && plan.style.has_curves();
-        let smoke = plan.options.smoke.as_ref().filter(|_| has_curves).cloned();
-        let with_sides = self.frames.finds_sides() && has_curves;
-        let aimed = self.frames.begin(self.model, camera, with_sides)?;
+        let strokes = self.find_strokes(camera)?;
+        let aimed = self.frames.begin(self.model, camera, &strokes.drawings)?;
         let other = match &mut self.blended {
             Some((other, _)) => Some(Box::new(other.begin(camera)?)),
             None => None,
         };
         Ok(Begun {
-            camera: *camera,
             aimed,
-            smoke,
+            strokes,
             other,
         })
     }
@@ -287,25 +282,23 @@ impl<'a> Renderer<'a> {
         let size = self.frames.plan.options.size;
         let mut frame = Frame::new(size);
         frame.notices.extend_from_slice(self.notices());
-        let mut sides = begun.aimed.with_sides.then(|| Sides::new(size));
         let tiles = *self.frames.plan.tiles();
         for origin in tiles.origins() {
             let (aimed, at) = (&mut begun.aimed, (origin, 0));
-            self.frames
-                .take_tile(aimed, at, &mut frame, sides.as_mut())?;
+            self.frames.take_tile(aimed, at, &mut frame)?;
             self.tell_of(&tiles, origin);
         }
+        begun.strokes.tell(&mut frame);
 
         // Draw the rest over them.
-        let contrasted = sides.map(|sides| (sides, begun.aimed.rules));
-        self.draw_over(begun, contrasted.as_ref(), &mut frame)?;
+        self.draw_over(begun, &mut frame)?;
         Ok(frame)
     }
 
     /// What the passes of [`Frame::times`] asked of a device in the frame drawn last, counted by [`npr_gpu::cost`], and
     /// what the copy of the picture to the processor asks. Of a frame in tiles, what its last tile asked for.
     ///
-    /// A second look that shows through and lines of `curves` and `potrace` have graphs of their own and do not count.
+    /// A second look that shows through and the finding of strokes have graphs of their own and do not count.
     ///
     /// # Errors
     ///
@@ -323,19 +316,17 @@ impl<'a> Renderer<'a> {
         }
     }
 
-    /// Adds what is drawn over a whole frame: curves, speed lines, the other look, words.
-    fn draw_over(
-        &mut self,
-        begun: Begun,
-        contrasted: Option<&(Sides, Rules)>,
-        frame: &mut Frame,
-    ) -> Result<(), RenderError> {
-        // Draw curves and speed lines, and let the other look show through.
+    /// Finds the strokes that a camera sees.
+    fn find_strokes(&mut self, camera: &Camera) -> Result<FoundStrokes, RenderError> {
+        let plan = &self.frames.plan;
+        strokes::find(self.lines.as_mut(), camera, (&plan.style, &plan.options))
+    }
+
+    /// Adds what is drawn over a whole frame: speed lines, the other look, words.
+    fn draw_over(&mut self, begun: Begun, frame: &mut Frame) -> Result<(), RenderError> {
+        // Draw speed lines, and let the other look show through.
         let view = &begun.aimed.view;
         let frames = &self.frames;
-        let look = (&frames.plan.style, &frames.plan.options);
-        let beheld = (&begun.camera, begun.smoke.as_ref());
-        curves::finish(self.lines.as_mut(), beheld, look, contrasted, frame)?;
         if let Some(speed_lines) = &self.speed_lines {
             speed_lines.finish(view, frame);
         }
@@ -352,12 +343,9 @@ impl<'a> Renderer<'a> {
     }
 }
 
-/// Whether a frame in such tiles can be drawn in bands: curves, speed lines, a second look and words go over it as a
-/// whole.
+/// Whether a frame in such tiles can be drawn in bands: speed lines, a second look and words go over it as a whole.
 fn draws_bands(style: &Style, tiles: &Tiles) -> bool {
-    let goes_over = style.has_curves()
-        || !style.trails().is_empty()
-        || style.blend.shows()
-        || !style.lettering.is_empty();
+    let goes_over =
+        !style.trails().is_empty() || style.blend.shows() || !style.lettering.is_empty();
     tiles.kept != tiles.frame && !goes_over
 }

@@ -38,8 +38,7 @@ impl<'a> Renderer<'a> {
     /// device in place of the first frame that is lost. Whoever drops the iterator has seen enough: frames under way
     /// are forgotten, and the smoke stays that of the last shot that was asked for.
     ///
-    /// A second frame under way costs memory for the results that are read: 4 bytes a pixel of the frame, 12 where
-    /// [`Self::with_lines`] draws lines in colours that follow what lies behind them.
+    /// A second frame under way costs memory for the results that are read: 4 bytes a pixel of the frame.
     ///
     /// ```
     /// # use npr_core::camera::Camera;

@@ -9,14 +9,15 @@
 //! | [`pixel_strokes`] | strokes of the pixels that lines cover | [Jiang et al. 2022] |
 //! | [`image_lines`] | borders between surfaces in a picture, and lines painted in textures | |
 //! | [`rank`] | list ranking, which orders the nodes of lines in parallel | [Wyllie 1979] |
+//! | [`stroke_ink`] | strokes in the pixels of a frame | |
 //!
-//! Functions of [`screen`], [`rank`] and [`pixel_strokes`] are twins of shaders. All ways but the first end in a
-//! [`stroke::Drawing`]; [`project`] and [`surface_location`] say where its points lie. Bitmaps alone are the crate
-//! [`npr_trace`], here [`trace`].
+//! Functions of [`screen`], [`rank`], [`pixel_strokes`] and [`stroke_ink`] are twins of shaders. All ways but the first
+//! end in a [`stroke::Drawing`]; [`project`] and [`surface_location`] say where its points lie. Bitmaps alone are the
+//! crate [`npr_trace`], here [`trace`].
 //!
 //! ```
 //! // A line one pixel wide whose spine runs through a pixel's centre covers it whole.
-//! assert_eq!(npr_vector::screen::ribbon::line_coverage(0.0, 0.5), 1.0);
+//! assert_eq!(npr_vector::screen::sweep::line_coverage(0.0, 0.5), 1.0);
 //! ```
 
 pub mod image_lines;
@@ -26,6 +27,7 @@ pub mod project;
 pub mod rank;
 pub mod screen;
 pub mod stroke;
+pub mod stroke_ink;
 pub mod surface_location;
 
 /// Bitmaps to curves: the crate `npr-trace`, which lines painted in textures are followed with.

@@ -5,7 +5,7 @@ use super::gpu::Gpu;
 use super::memory::Memory;
 use super::staging::Staging;
 use crate::engine::EngineError;
-use crate::graph::{Graph, ResourceId};
+use crate::graph::{Graph, Kind, ResourceId};
 use std::collections::BTreeMap;
 
 /// Memory that the results of a run are copied to before they are read, kept from run to run.
@@ -18,7 +18,7 @@ pub(super) struct Room {
 }
 
 impl Room {
-    /// Makes place for copies of resources, where it was not made before.
+    /// Makes place for copies of resources, where it was not made before or is too small by now.
     pub(super) fn fit_results(
         &mut self,
         gpu: &Gpu,
@@ -26,8 +26,14 @@ impl Room {
         ids: &[ResourceId],
     ) -> Result<(), EngineError> {
         for id in ids {
-            if !self.results.contains_key(id) {
-                let resource = graph.resource(*id);
+            let resource = graph.resource(*id);
+            let has_place = self.results.get(id).is_some_and(|place| {
+                // Only buffers grow.
+                let grew = matches!(resource.kind, Kind::Buffer { .. })
+                    && place.word_count() < resource.word_count();
+                !grew
+            });
+            if !has_place {
                 let make = || memory[id.index()].staging(gpu, resource.word_count());
                 let made = gpu.guarded(resource.name, make)?;
                 self.results.insert(*id, made);

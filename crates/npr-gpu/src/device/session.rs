@@ -64,16 +64,9 @@ impl DeviceSession {
         graph: Graph,
         times_apart: bool,
     ) -> Result<Self, EngineError> {
-        // Take memory, marked where it holds the size of later passes or their indices.
+        // Take memory.
         gpu.check()?;
-        let sizes = graph.nodes().iter().filter_map(|node| node.size);
-        let mut more = vec![wgpu::BufferUsages::empty(); graph.resources().len()];
-        for WorkSize { arguments, .. } in sizes {
-            more[arguments.index()] |= wgpu::BufferUsages::INDIRECT;
-        }
-        for id in graph.nodes().iter().filter_map(Node::indices) {
-            more[id.index()] |= wgpu::BufferUsages::INDEX;
-        }
+        let more = usages_of(&graph);
         let memory: Vec<Memory> = graph
             .resources()
             .iter()
@@ -117,6 +110,15 @@ impl DeviceSession {
         self.gpu.check()?;
         self.record_steps(encoder, None);
         Ok(())
+    }
+
+    /// The steps that bind a resource, bound anew, by their numbers.
+    fn rebound(&self, graph: &Graph, id: ResourceId) -> Result<Vec<(usize, Step)>, EngineError> {
+        let steps = self.steps.iter().enumerate();
+        let binding = steps.filter(|(_, step)| graph.nodes()[step.node].bound.contains(&id));
+        binding
+            .map(|(number, step)| Ok((number, step.rebound(&self.gpu, graph, &self.memory)?)))
+            .collect()
     }
 
     /// The graph that it runs.
@@ -329,6 +331,31 @@ impl Session for DeviceSession {
         })
     }
 
+    /// Takes new memory, and binds it anew in the passes that use it.
+    fn grow(&mut self, id: ResourceId, count: usize) -> Result<(), EngineError> {
+        let mut graph = self.graph.clone();
+        if !graph.grow(id, count) {
+            return Ok(());
+        }
+        self.gpu.check()?;
+        let usages = usages_of(&graph)[id.index()];
+        let larger = Memory::new(&self.gpu, graph.resource(id), usages)?;
+        let smaller = std::mem::replace(&mut self.memory[id.index()], larger);
+        match self.rebound(&graph, id) {
+            Ok(steps) => {
+                for (number, step) in steps {
+                    self.steps[number] = step;
+                }
+                self.graph = graph;
+                Ok(())
+            }
+            Err(error) => {
+                self.memory[id.index()] = smaller;
+                Err(error)
+            }
+        }
+    }
+
     /// Starts a run and the copying of what it reads, in one submission.
     ///
     /// Where passes are timed one by one, each is submitted and waited for alone: the run is done when this returns.
@@ -395,6 +422,19 @@ impl Session for DeviceSession {
         self.gpu.check()?;
         self.copied(ids)
     }
+}
+
+/// What every buffer of a graph is used for besides binding and copying: it may hold the size of later passes, or their
+/// indices.
+fn usages_of(graph: &Graph) -> Vec<wgpu::BufferUsages> {
+    let mut more = vec![wgpu::BufferUsages::empty(); graph.resources().len()];
+    for WorkSize { arguments, .. } in graph.nodes().iter().filter_map(|node| node.size) {
+        more[arguments.index()] |= wgpu::BufferUsages::INDIRECT;
+    }
+    for id in graph.nodes().iter().filter_map(Node::indices) {
+        more[id.index()] |= wgpu::BufferUsages::INDEX;
+    }
+    more
 }
 
 fn color_attachment(view: &wgpu::TextureView, clears: bool) -> wgpu::RenderPassColorAttachment<'_> {

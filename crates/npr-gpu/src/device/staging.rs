@@ -48,6 +48,11 @@ impl Staging {
         }
     }
 
+    /// Words that it has room for.
+    pub(super) fn word_count(&self) -> usize {
+        self.row_words * self.row_count
+    }
+
     /// The words of several, once `submission` has filled them; waits once for all.
     pub(super) fn words_of<'a>(
         gpu: &Gpu,

@@ -63,6 +63,25 @@ impl Step {
     }
 }
 
+impl Step {
+    /// The same step in a graph whose resources have grown.
+    pub(super) fn rebound(
+        &self,
+        gpu: &Gpu,
+        graph: &Graph,
+        memory: &[Memory],
+    ) -> Result<Self, EngineError> {
+        let node = &graph.nodes()[self.node];
+        let pipeline = Arc::clone(&self.pipeline);
+        Ok(Self {
+            node: self.node,
+            bindings: bind(gpu, graph, node, &pipeline, memory)?,
+            extent: extent_of(graph, node)?,
+            pipeline,
+        })
+    }
+}
+
 /// Group 0 of a node: the resources of its slots.
 fn bind(
     gpu: &Gpu,

@@ -229,6 +229,10 @@ impl Session for CountingSession {
         self.session.write(id, words)
     }
 
+    fn grow(&mut self, id: ResourceId, count: usize) -> Result<(), EngineError> {
+        self.session.grow(id, count)
+    }
+
     fn submit(&mut self, ids: &[ResourceId]) -> Result<(), EngineError> {
         self.session.submit(ids)
     }

@@ -55,6 +55,41 @@ fn the_greatest_depth_wins() {
     assert_eq!(drawing.run(&[5, 20, 7], &[100]), (100, 100.0 / 256.0));
 }
 
+/// A buffer that grows holds nothing, and passes draw as many elements as it has then; a run in flight is not touched.
+#[test]
+fn buffers_grow_between_runs() {
+    let processor: &dyn Engine = &Processor;
+    for engine in shared::device()
+        .map(|device| device as _)
+        .into_iter()
+        .chain([processor])
+    {
+        let mut drawing = Drawing::new(engine, [1, 1]);
+        assert_eq!(drawing.run(&[5], &[0]), (5, 5.0 / 256.0));
+        let picture = drawing.targets[0];
+
+        // The run in flight ends with what it started with.
+        drawing.session.submit(&[picture]).unwrap();
+        drawing.session.grow(drawing.numbers[0], 3).unwrap();
+        drawing
+            .session
+            .write(drawing.numbers[0], &[0, 7, 9])
+            .unwrap();
+        drawing.session.submit(&[picture]).unwrap();
+        for largest in [5, 9] {
+            let texels = drawing.session.collect().unwrap().1.take(picture);
+            assert!(texels.iter().all(|texel| *texel == largest), "{texels:?}");
+        }
+
+        // Less room than it has changes nothing; more room is empty, and read whole.
+        drawing.session.grow(drawing.numbers[0], 2).unwrap();
+        assert_eq!(drawing.session.read(drawing.numbers[0]).unwrap(), [0, 7, 9]);
+        drawing.session.grow(drawing.numbers[0], 5).unwrap();
+        assert_eq!(drawing.session.read(drawing.numbers[0]).unwrap(), [0; 5]);
+        assert_eq!(drawing.run(&[1, 2, 3, 4, 200], &[0]), (200, 200.0 / 256.0));
+    }
+}
+
 #[test]
 fn nothing_to_draw_still_clears() {
     let Some(device) = shared::device() else {

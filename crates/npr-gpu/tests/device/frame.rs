@@ -2,7 +2,7 @@
 
 use crate::scene::{
     FRAME_PX, Look, SHADOW_SIDE, SHADOWS, Scene, bare_compose, compose, lights, outline,
-    part_subjects, rules, shadow_of, smoke_look, spheres, view,
+    part_subjects, rules, shadow_of, smoke_look, spheres, strokes, view,
 };
 use npr_core::geometry::{ChartCorners, EdgeRole, GPixel, Stamp};
 use npr_core::smoke::SphereView;
@@ -10,7 +10,7 @@ use npr_core::window::Window;
 use npr_gpu::engine::Engine;
 use npr_gpu::graph::{Graph, ImageLayer, Kind, ResourceId};
 use npr_gpu::pass::{Access, Format, Pass, Slot};
-use npr_gpu::passes::{backdrop, line, mesh, raster, shade, smoke};
+use npr_gpu::passes::{backdrop, line, mesh, raster, shade, smoke, stroke};
 use npr_gpu::processor::Processor;
 use npr_style::backdrop::{ContrastBias, TILE, TileRims};
 use npr_style::compose::TriangleConstants;
@@ -76,7 +76,7 @@ pub struct Frame {
 
 impl Frame {
     /// The names of what passes make.
-    pub const MADE: [&str; 49] = [
+    pub const MADE: [&str; 51] = [
         "list",
         "posed",
         "lit",
@@ -103,6 +103,8 @@ impl Frame {
         "tints",
         "ribbons",
         "keys",
+        "inked",
+        "ink_keys",
         "stamps",
         "owners",
         "found",
@@ -287,6 +289,9 @@ impl Builder {
         self.make_buffer("tints", 12, mask_pixels);
         self.make_image("ribbons", Format::Rgba8, size);
         self.make_image("keys", Format::Depth, size);
+        self.make_image("inked", Format::Rgba8, size);
+        self.make_image("ink_keys", Format::Depth, size);
+        self.give_buffer("points", &strokes());
         self.make_buffer("stamps", 16, mask_pixels);
         self.make_buffer("smoothed", 16, mask_pixels);
         self.give_buffer("no_stamps", &vec![Stamp::default(); mask_pixels]);
@@ -336,6 +341,8 @@ impl Builder {
         self.compute(&line::DETECT);
         self.compute(&line::COLOR_MASK);
         self.draw(&line::DRAW_RIBBONS, "window", ["ribbons", "keys"], true);
+        let targets = ["inked", "ink_keys"];
+        self.draw(&stroke::DRAW_STROKES, "window", targets, true);
         self.compute(&line::FIND_RESIDUAL);
         self.compute(&line::SMOOTH_STAMPS);
         self.compute(&line::CLAIM_PIXELS);

@@ -18,6 +18,7 @@ use npr_style::line_color::HUES;
 use npr_style::smoke::{SmokeLook, pen};
 use npr_style::tone_row::{row_words, tone_row};
 use npr_stylesheet::{HueStop, hue_row};
+use npr_vector::stroke_ink::InkPoint;
 
 /// Width and height of the frame that windows are laid over.
 pub const FRAME_PX: [u32; 2] = [160, 90];
@@ -520,6 +521,29 @@ pub fn spheres() -> Vec<Sphere> {
     spheres[4].center[1] = f32::NAN;
     spheres[5].center = [2.1, 1.7, 3.6];
     spheres
+}
+
+/// Strokes of many widths, bends and colours, thick ones and hairlines, some off the frame and one without a length.
+pub fn strokes() -> Vec<InkPoint> {
+    let mut random = Random::new(12);
+    let mut points = Vec::new();
+    for stroke in 0..40 {
+        let thick = if stroke % 4 == 0 { 7.0 } else { 1.5 };
+        let count = 2 + stroke % 9;
+        let mut px = FRAME_PX.map(|side| (1.2 * random.unit() - 0.1) * side as f32);
+        for i in 0..count {
+            points.push(InkPoint {
+                px,
+                half_width: thick * random.unit(),
+                nearness: random.unit(),
+                color: [0, 8, 16, 24].map(|bit| (random.unit() * 255.0) as u32 | 64 << bit)[i % 4],
+                goes_on: u32::from(i + 1 < count),
+            });
+            px = px.map(|at| at + 18.0 * (random.unit() - 0.5));
+        }
+    }
+    points[1].px = points[0].px;
+    points
 }
 
 /// Settings of smoke of a look: smoothed on grids with drawn lines, or in windows with published ones.

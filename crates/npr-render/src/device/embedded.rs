@@ -174,7 +174,7 @@ impl EmbeddedRenderer {
     ) -> Result<(), RenderError> {
         // Hand over how the host sees the scene.
         let size = self.frames.plan.options.size;
-        let (view, _) = self.frames.aim(&self.model, &seen.camera)?;
+        let view = self.frames.aim(&self.model, &seen.camera, &[])?;
         check_view(&view, &seen.clip_from_world, self.model.bounds())?;
         self.frames.aim_tile(&view, [0; 2])?;
         let host_from_frame = host_from_frame(&view, &seen.clip_from_world);

@@ -2,18 +2,16 @@
 //! behind them, and the passes that find both sides of every outline.
 
 use super::line_features::LineFeatures;
-use crate::frame::Frame;
 use crate::frame_graph::{FrameGraph, Grids, Layers, size_if, write};
 use crate::part_info::PartInfo;
-use npr_core::color::{linear_from_srgb, linear_rgba, srgb_from_linear, unpack_rgba8};
 use npr_core::window::{View, Window};
-use npr_gpu::engine::{EngineError, Readings, Session};
+use npr_gpu::engine::{EngineError, Session};
 use npr_gpu::graph::ResourceId;
 use npr_gpu::pass::Format;
 use npr_gpu::passes::backdrop;
 use npr_style::backdrop::{
-    BIAS_REACH_MOST, ContrastBias, ContrastCache, PartSubject, RULES_MAX, Rim, Rule, Rules,
-    SMOOTH_MOST, TILE, TileRims,
+    BIAS_REACH_MOST, ContrastBias, PartSubject, RULES_MAX, Rim, Rule, Rules, SMOOTH_MOST, TILE,
+    TileRims,
 };
 use npr_style::compose::Compose;
 use npr_stylesheet::{BackgroundMethod, Style, Subjects};
@@ -318,27 +316,6 @@ impl ContrastPasses {
         let window = Window::over(view.frame_px, corner_px, covered, tiles);
         write(session, borders.tile_window, &[window])
     }
-
-    /// The pictures of both sides, to be read.
-    pub fn sides(&self) -> [ResourceId; 2] {
-        self.sides
-    }
-
-    /// Takes both sides of a tile, and lets `paste` copy the kept part of each into that of the frame.
-    pub fn take_sides(
-        &self,
-        read: &mut Readings,
-        sides: &mut Sides,
-        paste: impl Fn(&mut Frame, &[u32]),
-    ) {
-        for (id, picture) in self
-            .sides
-            .into_iter()
-            .zip([&mut sides.fronts, &mut sides.backs])
-        {
-            paste(picture, &read.take(id));
-        }
-    }
 }
 
 /// Triangle numbers and depths without hulls.
@@ -352,71 +329,4 @@ fn bare_ids(frame: &mut FrameGraph, grids: &Grids, features: LineFeatures) -> [R
         .image("bare depths", Format::Depth, grids.color());
     frame.draw_ids(frame.color_window, ids, depths);
     [ids, depths]
-}
-
-/// The colours on both sides of the lines of a frame, for lines that the host draws.
-#[derive(Debug, Clone)]
-pub(crate) struct Sides {
-    /// The subject's colour with its weight in alpha, as bytes; in `backs` the colour behind, with the number of the
-    /// rule.
-    pub fronts: Frame,
-    pub backs: Frame,
-}
-
-impl Sides {
-    pub fn new(size: [u32; 2]) -> Self {
-        Self {
-            fronts: Frame::new(size),
-            backs: Frame::new(size),
-        }
-    }
-
-    /// Lays lines over a frame, each in the colour that stands out from what lies behind it.
-    ///
-    /// Both are sRGB bytes with straight alpha; edges are blended in sRGB, as curves are everywhere.
-    pub fn lay(&self, lines: &[u8], rules: &Rules, rgba: &mut [u8]) {
-        // Take all pictures texel by texel.
-        let texels = |bytes: &'_ [u8]| -> Vec<[u8; 4]> {
-            bytes
-                .chunks_exact(4)
-                .filter_map(|c| c.try_into().ok())
-                .collect()
-        };
-        let (fronts, backs, lines) = (
-            texels(&self.fronts.rgba),
-            texels(&self.backs.rgba),
-            texels(lines),
-        );
-
-        // Recolour each texel of ink where its outline follows the background, and blend it over the frame.
-        let sides = fronts.iter().zip(&backs);
-        let mut contrast_cache = ContrastCache::default();
-        for ((under, line), (front, back)) in rgba.chunks_exact_mut(4).zip(&lines).zip(sides) {
-            if line[3] == 0 {
-                continue;
-            }
-            let [r, g, b, alpha] = unpack_rgba8(u32::from_le_bytes(*line));
-            let mut color = [r, g, b];
-            if front[3] != 0 {
-                let sides = [front, back].map(|texel| u32::from_le_bytes(*texel));
-                let light_of = |texel| linear_rgba(unpack_rgba8(texel));
-                let light =
-                    contrast_cache.light(color.map(linear_from_srgb), sides, rules, light_of);
-                color = light.map(srgb_from_linear);
-            }
-            blend(under, color, alpha);
-        }
-    }
-}
-
-/// Lays a colour over a texel of bytes with straight alpha.
-fn blend(under: &mut [u8], color: [f32; 3], alpha: f32) {
-    let [r, g, b, a] = under else { return };
-    let below = f32::from(*a) / 255.0 * (1.0 - alpha);
-    let whole = alpha + below;
-    for (channel, over) in [r, g, b].into_iter().zip(color) {
-        let mixed = (over * alpha + f32::from(*channel) / 255.0 * below) / whole.max(1e-6);
-        *channel = (mixed.clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
-    }
-    *a = (whole.clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
 }

@@ -12,6 +12,8 @@ pub(crate) struct LineFeatures {
     pub ribbons: bool,
     /// What no ribbon explains is stamped.
     pub residual: bool,
+    /// Strokes that were found before are drawn.
+    pub strokes: bool,
     /// The mask itself is drawn.
     pub filter: bool,
     /// A hull is drawn behind.
@@ -34,6 +36,7 @@ impl LineFeatures {
         mask: false,
         ribbons: false,
         residual: false,
+        strokes: false,
         filter: false,
         hull: false,
         paints: false,
@@ -50,11 +53,22 @@ impl LineFeatures {
         rules.fold(own, |all, method| all.and(Self::of_one(method, style)))
     }
 
+    /// What of it is left for a model without surfaces: strokes alone, which a file may have as geometry.
+    pub fn without_surfaces(self) -> Self {
+        let strokes = self.strokes;
+        Self {
+            strokes,
+            layers: if strokes { Compose::RIBBONS } else { 0 },
+            ..Self::NONE
+        }
+    }
+
     fn and(self, other: Self) -> Self {
         Self {
             mask: self.mask || other.mask,
             ribbons: self.ribbons || other.ribbons,
             residual: self.residual || other.residual && !self.filter && !self.rim,
+            strokes: self.strokes || other.strokes,
             filter: self.filter || other.filter,
             hull: self.hull || other.hull,
             paints: self.paints || other.paints,
@@ -74,10 +88,12 @@ impl LineFeatures {
             ..masked
         };
         match method {
-            OutlineMethod::Off
-            | OutlineMethod::Angle
-            | OutlineMethod::Curves
-            | OutlineMethod::Potrace => none,
+            OutlineMethod::Off | OutlineMethod::Angle => none,
+            OutlineMethod::Curves | OutlineMethod::Potrace => Self {
+                strokes: true,
+                layers: Compose::RIBBONS,
+                ..none
+            },
             OutlineMethod::Shape => {
                 let residual = style.line.kinds.intersection;
                 let stamps = if residual { Compose::OVERLAY } else { 0 };

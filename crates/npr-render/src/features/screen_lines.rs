@@ -19,8 +19,10 @@ pub(crate) struct ScreenLines {
     mask: ResourceId,
     /// What surface, light and depth decide about the colour of lines, at every pixel of the mask.
     tints: ResourceId,
-    /// Mesh edges drawn with width.
+    /// Mesh edges and strokes drawn with width.
     pub ribbons: ResourceId,
+    /// The key of the line that each pixel of `ribbons` shows.
+    pub keys: ResourceId,
 }
 
 impl ScreenLines {
@@ -36,13 +38,14 @@ impl ScreenLines {
         // Size the pictures; one that no method needs has a single texel.
         let mask = size_if(features.mask, grids.mask);
         let tints = size_if(features.mask && features.paints, grids.mask);
-        let ribbons = size_if(features.ribbons, grids.output);
+        let ribbons = size_if(features.ribbons || features.strokes, grids.output);
         let lines = Self {
             mask_window: graph.uniform::<Window>("mask window"),
             edges: graph.buffer::<Edge>("edges", edge_count),
             mask: graph.buffer::<u32>("mask", pixel_count(mask)),
             tints: graph.buffer::<LineTint>("line tints", pixel_count(tints)),
             ribbons: graph.image("ribbons", Format::Rgba8, ribbons),
+            keys: graph.image("ribbon keys", Format::Depth, ribbons),
         };
 
         // Find and draw lines, where a method looks for them on the mask.
@@ -86,7 +89,7 @@ impl ScreenLines {
 
         // Draw what was found, in the ways of the method.
         if features.ribbons {
-            self.draw_ribbons(frame, grids, gbuffer);
+            self.draw_ribbons(frame, gbuffer);
         }
         if features.residual {
             self.stamp_residual(frame, grids, gbuffer, owners);
@@ -126,7 +129,7 @@ impl ScreenLines {
         ids
     }
 
-    fn draw_ribbons(&self, frame: &mut FrameGraph, grids: &Grids, gbuffer: ResourceId) {
+    fn draw_ribbons(&self, frame: &mut FrameGraph, gbuffer: ResourceId) {
         // Find the role of every edge in the view.
         let edge_count = frame.graph.element_count(self.edges);
         let roles = frame.graph.buffer::<EdgeRole>("edge roles", edge_count);
@@ -141,9 +144,6 @@ impl ScreenLines {
         frame.graph.compute(&mesh::CLASSIFY_EDGES, &classify);
 
         // Draw edges with width where the mask shows them.
-        let keys = frame
-            .graph
-            .image("ribbon keys", Format::Depth, grids.output);
         let ribbons = [
             frame.view,
             frame.output_window,
@@ -157,7 +157,7 @@ impl ScreenLines {
             self.mask,
             self.tints,
         ];
-        let targets = [self.ribbons, keys];
+        let targets = [self.ribbons, self.keys];
         frame
             .graph
             .draw(&line::DRAW_RIBBONS, &ribbons, &targets, true);

@@ -96,8 +96,8 @@ struct Wanted<'a> {
     camera: &'a Camera,
     style: &'a Style,
     options: &'a LineOptions,
-    /// Smoke that hides lines, and whether it is drawn itself.
-    smoke: Option<(&'a Smoke, bool)>,
+    /// Smoke that hides lines, and has an outline.
+    smoke: Option<&'a Smoke>,
     /// The style's pictures by name.
     pictures: &'a BTreeMap<String, Picture>,
     /// A picture of the scene without lines and background, for lines whose colours follow it.
@@ -261,21 +261,20 @@ impl LineModel {
             camera,
             style,
             options,
-            smoke: self.smoke.as_ref().map(|smoke| (smoke, true)),
+            smoke: self.smoke.as_ref(),
             pictures: &self.pictures,
             behind,
         };
         self.draw_some(&wanted, find, |_| true)
     }
 
-    /// The lines of the parts whose style asks for curves that are found as `options` says, as far as `smoke` does not
-    /// hide them.
+    /// The lines of the parts whose style asks for curves that are found as `options` says; smoke hides none of them.
     pub(crate) fn draw_curves(
         &self,
         camera: &Camera,
         style: &Style,
         options: &LineOptions,
-        (smoke, pictures): (Option<&Smoke>, &BTreeMap<String, Picture>),
+        pictures: &BTreeMap<String, Picture>,
         find: &mut dyn Finder,
     ) -> Result<Drawing, RenderError> {
         let is_curve = |look: &Look<'_>| look.line_method.source() == Some(options.method);
@@ -283,7 +282,7 @@ impl LineModel {
             camera,
             style,
             options,
-            smoke: smoke.map(|smoke| (smoke, false)),
+            smoke: None,
             pictures,
             behind: None,
         };
@@ -307,7 +306,7 @@ impl LineModel {
         } = *wanted;
         check_size(options.size)?;
         let is_empty = self.points.is_empty();
-        let bounds = smoke::joined(smoke.map(|(smoke, _)| smoke), self.bounds, is_empty);
+        let bounds = smoke::joined(smoke, self.bounds, is_empty);
         let projector = Projector::new(camera, options.size, bounds);
         let prepared = PreparedOnDemand::new(self, options);
         // A picture of lines finds its own contours.
@@ -319,7 +318,7 @@ impl LineModel {
             find.contours(&eye_of(&self.shape, &projector), &meanwhile)?
         };
         let smoke_layer = match smoke {
-            Some((smoke, _)) => Some(self.smoke_view(wanted, smoke, &projector, bounds)?),
+            Some(smoke) => Some(self.smoke_view(wanted, smoke, &projector, bounds)?),
             None => None,
         };
         let width_at = |point: &SilhouettePoint| {
@@ -327,10 +326,9 @@ impl LineModel {
                 .as_ref()
                 .map_or(0.0, |smoke_layer| smoke_layer.width_at(point))
         };
-        let is_drawn = smoke.is_some_and(|(_, is_drawn)| is_drawn);
         let smoke_lines = smoke_layer
             .as_ref()
-            .map(|smoke_layer| smoke_layer.lines(is_drawn, &width_at));
+            .map(|smoke_layer| smoke_layer.lines(&width_at));
         let colors = match colors::is_painted(style) {
             true => Some(self.colors(wanted, prepared.get()?, &contours, pictures)?),
             false => None,
@@ -372,7 +370,7 @@ impl LineModel {
                 &projector,
                 options.size,
                 &strokes,
-                smoke_layer.as_ref().filter(|_| is_drawn),
+                smoke_layer.as_ref(),
             )?
         } else {
             Vec::new()
@@ -383,7 +381,7 @@ impl LineModel {
         check_points(&strokes)?;
         let mut surfaces = paint.into_surfaces(&self.parts);
         let object_number = surfaces.iter().map(|s| s.object_number + 1).max();
-        if let Some(smoke_layer) = smoke_layer.filter(|_| is_drawn) {
+        if let Some(smoke_layer) = smoke_layer {
             surfaces.extend(smoke_layer.surfaces(object_number.unwrap_or(0)));
         }
         Ok(Drawing {

@@ -6,7 +6,6 @@ use super::options::LineOptions;
 use crate::error::RenderError;
 use crate::frame::Frame;
 use crate::options::Picture;
-use crate::smoke::Smoke;
 use npr_core::camera::Camera;
 use npr_gpu::engine::{Engine, PassTime};
 use npr_stylesheet::Style;
@@ -73,18 +72,18 @@ impl<'a> LineRenderer<'a> {
             .draw_with(camera, style, options, behind.as_ref(), find)
     }
 
-    /// The lines of the parts whose style asks for curves that are found as `options` says, as far as `smoke` does not
-    /// hide them.
+    /// The lines of the parts whose style asks for curves that are found as `options` says; smoke hides none of them.
     pub(crate) fn draw_curves(
         &mut self,
         camera: &Camera,
         style: &Style,
         options: &LineOptions,
-        beside: (Option<&Smoke>, &BTreeMap<String, Picture>),
+        pictures: &BTreeMap<String, Picture>,
     ) -> Result<Drawing, RenderError> {
         self.finder.start_view();
         let find = self.finder.as_mut();
-        self.model.draw_curves(camera, style, options, beside, find)
+        self.model
+            .draw_curves(camera, style, options, pictures, find)
     }
 
     /// How long each pass of the last view took; none on the processor.

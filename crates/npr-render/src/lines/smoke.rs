@@ -88,17 +88,16 @@ impl<'a> SmokeView<'a> {
         f64::from(self.look.line_width(jump, outward, radius_px))
     }
 
-    /// The smoke as line drawings take it; its own outline is drawn where `is_outlined`.
+    /// The smoke as line drawings take it.
     pub fn lines<'b>(
         &'b self,
-        is_outlined: bool,
         width_at: &'b (dyn Fn(&SilhouettePoint) -> f64 + Sync),
     ) -> SmokeLines<'b> {
         let smoke = &self.style.smoke;
         SmokeLines {
             puffs: &self.puffs,
             is_dense: smoke.opacity >= DENSE,
-            is_outlined: is_outlined && smoke.line.method != Outlining::Off,
+            is_outlined: smoke.line.method != Outlining::Off,
             jump: f64::from(smoke.line.jump),
             surface: self.first_surface,
             width_at,

@@ -228,6 +228,10 @@ impl Session for SpySession {
         self.session.write(id, words)
     }
 
+    fn grow(&mut self, id: ResourceId, count: usize) -> Result<(), EngineError> {
+        self.session.grow(id, count)
+    }
+
     fn submit(&mut self, ids: &[ResourceId]) -> Result<(), EngineError> {
         self.tell(Submit);
         self.session.submit(ids)
@@ -395,6 +399,10 @@ mod on_devices {
     impl Session for DyingSession {
         fn write(&mut self, id: ResourceId, words: &[u32]) -> Result<(), EngineError> {
             self.0.write(id, words)
+        }
+
+        fn grow(&mut self, id: ResourceId, count: usize) -> Result<(), EngineError> {
+            self.0.grow(id, count)
         }
 
         fn submit(&mut self, ids: &[ResourceId]) -> Result<(), EngineError> {

@@ -1,7 +1,7 @@
 //! A key of a style, and everything that decides whether it has an effect.
 
 use crate::key::{lies_in, without_rule};
-use crate::{BackgroundMethod, Look, OutlineMethod, Style, Tone, WidthSource};
+use crate::{BackgroundMethod, Look, OutlineMethod, Style, TaperEnds, Tone, WidthSource};
 use npr_core::line_source::LineSource;
 
 /// The output and the scene that a style is used for.
@@ -168,6 +168,13 @@ impl<'a> Case<'a> {
             [] => "no lines are drawn".to_owned(),
             names => format!("lines of method {} do not use it", names.join(" or ")),
         }
+    }
+
+    /// Whether a stroke that is cut in two looks otherwise than one that is not.
+    pub fn shows_cuts(&self) -> bool {
+        let width = &self.style.line.width;
+        let tapers = width.taper.is_on() && width.taper.ends == TaperEnds::All;
+        tapers || width.short.value > 0.0
     }
 
     /// Whether any part may be hatched.

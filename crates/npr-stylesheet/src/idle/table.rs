@@ -316,7 +316,9 @@ pub(super) const ENTRIES: &[Entry] = &[
         !c.is_drawn_by(&[Shape, Filter, FilterHull, Curves])
     }),
     of_methods(&["line.background.scope"], |c| {
-        !c.is_drawn_by(&[Shape, Okuya, Filter, Hull, FilterHull, Edges, Angle])
+        !c.is_drawn_by(&[
+            Shape, Okuya, Filter, Hull, FilterHull, Edges, Angle, Curves, Potrace,
+        ])
     }),
     of_methods(&["line.paint.kinds.intersection"], |c| {
         !c.is_drawn_by(&[Shape, Filter, FilterHull, Curves])
@@ -327,6 +329,11 @@ pub(super) const ENTRIES: &[Entry] = &[
     of_methods(&["line.split_angle_deg"], |c| {
         !c.is_drawn_by(&[Curves, Potrace])
     }),
+    entry(
+        &["line.split_angle_deg"],
+        |c| c.is_frame() && !c.is_drawn_by(&[Curves]) && !c.shows_cuts(),
+        "lines of method potrace show where they are cut only with line.width.short or with tapers at all ends",
+    ),
     of_methods(&["line.angle_threshold_deg", "line.angle_softness"], |c| {
         !c.is_drawn_by(&[Angle])
     }),

@@ -5,7 +5,7 @@
 //! as the surface says, and a row of discs is a line. They are few: every step works on a list of what the step before
 //! found, and nothing else.
 
-use crate::screen::ribbon::line_coverage;
+use crate::screen::sweep::line_coverage;
 use npr_core::color;
 use npr_core::geometry::{GPixel, NONE, Part, Stamp};
 use npr_core::line_color::{LineTint, LineTints};

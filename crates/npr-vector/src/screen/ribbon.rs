@@ -1,5 +1,6 @@
 //! Edges as ribbons of varying width: the twin of `line.draw_ribbons`.
 
+use super::sweep::{Ribbon, draw_bands, line_key};
 use npr_core::color;
 use npr_core::geometry::{Edge, EdgeRole, FAR_DEPTH, GPixel, NONE, Part, PosedVertex};
 use npr_core::line_color::{LineTint, LineTints, kind_of_edge};
@@ -7,9 +8,6 @@ use npr_core::line_kind::KindSet;
 use npr_core::outline::{MASK_KINDS, Outline};
 use npr_core::window::{View, Window};
 use rayon::prelude::*;
-
-/// Rows drawn by one task.
-const BAND_ROWS: usize = 32;
 
 /// Depth by which an edge may lie behind the surface around it and still show, in mask pixels on a surface that faces
 /// the eye; more where it slopes.
@@ -23,57 +21,6 @@ const RIM_FACTOR: f32 = 16.0;
 
 /// Length along an edge over which the mask must continue, in mask pixels; a line that only crosses is thinner.
 const LINE_REACH_PX: f32 = 2.5;
-
-/// A line segment with a half width at either end, in frame pixels.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Ribbon {
-    /// One end of the spine.
-    pub a: [f32; 2],
-    /// The other end.
-    pub b: [f32; 2],
-    /// Half width at `a`.
-    pub half_a: f32,
-    /// Half width at `b`.
-    pub half_b: f32,
-}
-
-/// Share of a pixel covered by a straight line of half width `half_width` at `distance` from its centre, in pixels.
-///
-/// Exact for a box filter along the line's normal, so thin lines fade instead of breaking up.
-pub fn line_coverage(distance: f32, half_width: f32) -> f32 {
-    let covered = half_width.min(distance + 0.5) - (-half_width).max(distance - 0.5);
-    covered.clamp(0.0, 1.0)
-}
-
-impl Ribbon {
-    /// Coverage of the pixel centred at `p`, and the nearest point of the spine, 0 at `a` and 1 at `b`.
-    ///
-    /// Round ends overlap the next ribbon's, so that thick bends have no notches; `square` ones stop at the end
-    /// points, as published.
-    pub fn at(&self, p: [f32; 2], square: bool) -> (f32, f32) {
-        let ab = [self.b[0] - self.a[0], self.b[1] - self.a[1]];
-        let ap = [p[0] - self.a[0], p[1] - self.a[1]];
-        let square_length = ab[0] * ab[0] + ab[1] * ab[1];
-        let along = if square_length > 1e-12 {
-            (ap[0] * ab[0] + ap[1] * ab[1]) / square_length
-        } else {
-            0.0
-        };
-        let t = along.clamp(0.0, 1.0);
-        let off = [ap[0] - ab[0] * t, ap[1] - ab[1] * t];
-        let distance = (off[0] * off[0] + off[1] * off[1]).sqrt();
-        let half_width = self.half_a + (self.half_b - self.half_a) * t;
-        if square && t != along {
-            return (0.0, t);
-        }
-        (line_coverage(distance, half_width), t)
-    }
-}
-
-/// The key that decides between lines at a pixel: more coverage first, then nearness.
-pub fn line_key(coverage: f32, nearness: f32) -> f32 {
-    ((coverage * 255.0 + 0.5).floor() + nearness.min(0.999)) / 256.0
-}
 
 /// The input of [`draw`].
 #[derive(Debug, Clone, Copy)]
@@ -113,9 +60,6 @@ pub fn draw(
     layer: &mut [u32],
     keys: &mut [u32],
 ) {
-    let width = with.window.size[0] as usize;
-    let height = with.window.size[1] as usize;
-
     // Project the edges that have a kind.
     let spines: Vec<Spine> = edges
         .par_iter()
@@ -124,27 +68,16 @@ pub fn draw(
         .filter_map(|(edge, role)| with.spine(edge, role))
         .collect();
 
-    // Sort them into bands of rows, in their order.
-    let mut bands = vec![Vec::new(); height.div_ceil(BAND_ROWS)];
-    for (i, spine) in spines.iter().enumerate() {
-        if let Some((top, bottom)) = spine.rows(with.window) {
-            for band in &mut bands[top / BAND_ROWS..=bottom / BAND_ROWS] {
-                band.push(i as u32);
-            }
-        }
-    }
-
-    // Draw each band on a thread of its own.
-    let rows = BAND_ROWS * width;
-    let targets = layer.par_chunks_mut(rows).zip(keys.par_chunks_mut(rows));
-    targets
-        .zip(bands)
-        .enumerate()
-        .for_each(|(band, ((layer, keys), members))| {
-            for member in members {
-                with.draw_spine(&spines[member as usize], band * BAND_ROWS, layer, keys);
-            }
-        });
+    // Draw them in their order, band by band.
+    draw_bands(
+        &spines,
+        with.window,
+        layer,
+        keys,
+        &|spine, px, texel, best| {
+            with.ink(spine, px, texel, best);
+        },
+    );
 }
 
 /// An edge ready to draw.
@@ -158,45 +91,10 @@ struct Spine {
     kind: u32,
 }
 
-impl Spine {
-    /// How far ink reaches from the spine.
-    fn reach(&self) -> f32 {
-        self.ribbon.half_a.max(self.ribbon.half_b) + 0.5
+impl AsRef<Ribbon> for Spine {
+    fn as_ref(&self) -> &Ribbon {
+        &self.ribbon
     }
-
-    /// The rows of the window that may hold ink.
-    fn rows(&self, window: &Window) -> Option<(usize, usize)> {
-        let (low, high) = (
-            self.ribbon.a[1].min(self.ribbon.b[1]),
-            self.ribbon.a[1].max(self.ribbon.b[1]),
-        );
-        let (top, bottom) = centers_between(low - self.reach(), high + self.reach(), window, 1)?;
-        Some((top as usize, bottom as usize))
-    }
-
-    /// The columns of the window that may hold ink in the row whose centre lies at `y`.
-    fn columns(&self, y: f32, window: &Window) -> Option<(u32, u32)> {
-        let Ribbon { a, b, .. } = self.ribbon;
-        let (reach, rise) = (self.reach(), b[1] - a[1]);
-        let at = |t: f32| a[0] + (b[0] - a[0]) * t.clamp(0.0, 1.0);
-        let (x0, x1) = if rise.abs() > 1e-3 {
-            (at((y - reach - a[1]) / rise), at((y + reach - a[1]) / rise))
-        } else {
-            (a[0], b[0])
-        };
-        centers_between(x0.min(x1) - reach, x0.max(x1) + reach, window, 0)
-    }
-}
-
-/// First and last pixel of the window along an axis whose centres lie between two frame positions.
-fn centers_between(low: f32, high: f32, window: &Window, axis: usize) -> Option<(u32, u32)> {
-    let to_window = |px: f32| (px - window.frame_origin[axis]) / window.frame_step[axis] - 0.5;
-    let last = window.size[axis] as f32 - 1.0;
-    let (first, end) = (
-        to_window(low).ceil().max(0.0),
-        to_window(high).floor().min(last),
-    );
-    (first <= end).then_some((first as u32, end as u32))
 }
 
 impl Drawing<'_> {
@@ -251,27 +149,6 @@ impl Drawing<'_> {
         )
     }
 
-    /// Draws one ribbon into a band of rows.
-    fn draw_spine(&self, spine: &Spine, first_row: usize, layer: &mut [u32], keys: &mut [u32]) {
-        let Some((top, bottom)) = spine.rows(self.window) else {
-            return;
-        };
-        let width = self.window.size[0] as usize;
-        let last_row = first_row + layer.len() / width - 1;
-        for row in top.max(first_row)..=bottom.min(last_row) {
-            let y = self.window.frame_at(0, row as u32)[1];
-            let Some((left, right)) = spine.columns(y, self.window) else {
-                continue;
-            };
-            let start = (row - first_row) * width;
-            for column in left..=right {
-                let slot = start + column as usize;
-                let px = self.window.frame_at(column, row as u32);
-                self.ink(spine, px, &mut layer[slot], &mut keys[slot]);
-            }
-        }
-    }
-
     /// Inks one pixel where the ribbon shows and covers it better than the line that is there.
     fn ink(&self, spine: &Spine, px: [f32; 2], texel: &mut u32, best: &mut u32) {
         let ribbon = &spine.ribbon;
@@ -286,7 +163,7 @@ impl Drawing<'_> {
         let depth = self.view.plane_coordinate(from_a + (to_b - from_a) * t);
 
         // Skip the costly look-ups where a better line is there already.
-        let key = line_key(coverage, self.nearness(depth)).to_bits();
+        let key = line_key(coverage, self.view.nearness(depth)).to_bits();
         if key <= *best {
             return;
         }
@@ -302,15 +179,6 @@ impl Drawing<'_> {
             let [r, g, b, a] = tints.color_at(self.parts, spine.part, kind, reference);
             *texel = color::pack_rgba8([r, g, b, a * coverage]);
             *best = key;
-        }
-    }
-
-    /// 1 at the near plane, falling with depth; in parallel view the near plane may lie behind the eye.
-    fn nearness(&self, depth: f32) -> f32 {
-        if self.view.perspective < 0.5 {
-            0.5
-        } else {
-            self.view.near / depth.max(self.view.near)
         }
     }
 
@@ -422,56 +290,5 @@ impl Drawing<'_> {
     fn mask_element(&self, px: [f32; 2]) -> usize {
         let pixel = self.mask_window.pixel_at(px);
         (pixel[1] * self.mask_window.size[0] + pixel[0]) as usize
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use proptest::prelude::*;
-
-    fn point() -> impl Strategy<Value = [f32; 2]> {
-        prop::array::uniform2(2f32..30.0)
-    }
-
-    proptest! {
-        #[test]
-        fn coverage_is_the_overlap_of_two_intervals(distance in 0f32..5.0, half in 0f32..4.0) {
-            let n = 4000;
-            let inside = (0..n).filter(|i| {
-                let at = distance - 0.5 + (*i as f32 + 0.5) / n as f32;
-                at.abs() <= half
-            });
-            let want = inside.count() as f32 / n as f32;
-            prop_assert!((line_coverage(distance, half) - want).abs() < 1e-3);
-        }
-
-        #[test]
-        fn turning_a_ribbon_round_changes_nothing(
-            a in point(), b in point(), half_a in 0.1f32..4.0, half_b in 0.1f32..4.0, p in point(),
-        ) {
-            let there = Ribbon { a, b, half_a, half_b }.at(p, false);
-            let back = Ribbon { a: b, b: a, half_a: half_b, half_b: half_a }.at(p, false);
-            prop_assert!((there.0 - back.0).abs() < 1e-3);
-        }
-
-        #[test]
-        fn a_bend_has_no_notch(a in point(), b in point(), c in point(), half in 1f32..4.0, angle in 0f32..6.3) {
-            // Around the joint, everything within the half width is inked by one of the two ribbons.
-            let one = Ribbon { a, b, half_a: half, half_b: half };
-            let two = Ribbon { a: b, b: c, half_a: half, half_b: half };
-            let r = half - 0.5;
-            let p = [b[0] + npr_core::math::cos(angle) * r, b[1] + npr_core::math::sin(angle) * r];
-            prop_assert!(one.at(p, false).0.max(two.at(p, false).0) > 0.99);
-        }
-
-        #[test]
-        fn the_key_orders_by_coverage_then_nearness(
-            a in 0f32..1.0, b in 0f32..1.0, near in 0f32..1.0, far in 0f32..1.0,
-        ) {
-            prop_assume!((a - b).abs() > 1.0 / 250.0);
-            prop_assert_eq!(line_key(a, near) > line_key(b, far), a > b);
-            prop_assert!(line_key(a, near.max(far)) >= line_key(a, near.min(far)));
-        }
     }
 }

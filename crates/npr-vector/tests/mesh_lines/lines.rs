@@ -259,6 +259,39 @@ proptest! {
         prop_assert_eq!(ids(&found), ids(&draw(&shape, [y, -x, 3.5], &split)));
     }
 
+    /// Where two boxes cut through each other, no line shows that lies behind either of them.
+    #[test]
+    fn lines_where_boxes_cross_are_hidden_by_the_boxes(
+        boxes in prop::array::uniform2((prop::array::uniform3(-8_i8..8), prop::array::uniform3(1_i8..8))),
+        eye in any_eye(),
+    ) {
+        prop_assume!(eye.iter().any(|v| v.abs() > 2.0));
+        // On a grid of eighths, so that faces also lie in one plane.
+        let boxes = boxes.map(|(low, extent)| {
+            let low = low.map(|v| f32::from(v) / 8.0);
+            [low, std::array::from_fn(|i| low[i] + f32::from(extent[i]) / 8.0)]
+        });
+        let mut shape = HalfEdgeMesh {
+            surfaces: (0..2).map(|object| Surface { object, ..Surface::default() }).collect(),
+            ..HalfEdgeMesh::default()
+        };
+        let cube = testing::cube();
+        let at = |v: f32, [low, high]: [f32; 2]| if v > 0.0 { high } else { low };
+        for (object, [low, high]) in (0..).zip(boxes) {
+            let mesh = testing::mapped(&cube, |p| std::array::from_fn(|i| at(p[i], [low[i], high[i]])));
+            add_to(&mut shape, &mesh, |_| object);
+        }
+        for stroke in draw(&shape, eye, &settings(false)) {
+            for pair in stroke.points.windows(2).filter(|_| stroke.kind == Kind::Intersection) {
+                let [a, b] = [0, 1].map(|i| pair[i].world.map(f64::from));
+                let middle: [f64; 3] = std::array::from_fn(|i| 0.5 * (a[i] + b[i]));
+                for [low, high] in boxes {
+                    prop_assert!(!is_behind_box(eye, middle, low, high), "{:?} behind {:?}", middle, [low, high]);
+                }
+            }
+        }
+    }
+
     /// Length and kinds of what is seen do not depend on the order of vertices in a file.
     #[test]
     fn what_is_seen_does_not_depend_on_numbering(eye in any_eye(), seed: u64) {
@@ -271,6 +304,25 @@ proptest! {
         let (one, other) = (length(&mesh), length(&shuffled));
         prop_assert!((one - other).abs() <= 0.01 * one + 2.0, "{} {}", one, other);
     }
+}
+
+/// Whether the way from the eye to a point leads through the inside of a box, well away from its sides.
+fn is_behind_box(eye: [f32; 3], point: [f64; 3], low: [f32; 3], high: [f32; 3]) -> bool {
+    let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
+    for i in 0..3 {
+        let (from, step) = (f64::from(eye[i]), point[i] - f64::from(eye[i]));
+        let [low, high] = [f64::from(low[i]) + 1e-3, f64::from(high[i]) - 1e-3];
+        if step.abs() < 1e-9 {
+            if from < low || from > high {
+                return false;
+            }
+            continue;
+        }
+        let (s, t) = ((low - from) / step, (high - from) / step);
+        enters = enters.max(s.min(t));
+        leaves = leaves.min(s.max(t));
+    }
+    enters < leaves
 }
 
 /// Faces between eye and point, by solving for the place in each.

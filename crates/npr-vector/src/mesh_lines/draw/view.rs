@@ -349,15 +349,8 @@ impl View<'_> {
         other: &CurveNode,
         is_crowded: bool,
     ) -> Circumstances {
-        // A line lies in the faces beside its edge, which do not hide it.
-        let mut own_faces: Vec<u32> = self
-            .shape
-            .sides(node.edge)
-            .iter()
-            .map(|side| side / 3)
-            .collect();
-
-        // Along an edge, note where it goes through other faces.
+        // Along an edge, a line lies in the faces beside it, which do not hide it; note where it goes through others.
+        let beside = |edge: u32| self.shape.sides(edge).iter().map(|side| side / 3);
         if node.is_along_edge() {
             let is_polyline = self.shape.polyline_of(node.edge).is_some();
             return Circumstances {
@@ -366,7 +359,7 @@ impl View<'_> {
                 } else {
                     self.piercings(node)
                 },
-                own_faces,
+                own_faces: beside(node.edge).collect(),
                 touch: if is_polyline {
                     self.prepared.touch
                 } else {
@@ -375,13 +368,16 @@ impl View<'_> {
             };
         }
 
-        // Across a face, its own and those that pierce its ends do not hide it either.
-        own_faces.extend(self.shape.sides(other.edge).iter().map(|side| side / 3));
-        own_faces.push(node.face);
-        for end in [node, other] {
+        // Across a face, it lies in that one and in those that hold both of its ends. What touches one end alone, as
+        // the next side of a box does, may well hide the rest.
+        let at = |end: &CurveNode| {
             let pierced = self.prepared.crossings.at(end.edge, end.t).iter();
-            own_faces.extend(pierced.map(|p| p.face));
-        }
+            let faces = beside(end.edge).chain(pierced.map(|p| p.face));
+            faces.collect::<Vec<u32>>()
+        };
+        let (here, there) = (at(node), at(other));
+        let mut own_faces = vec![node.face];
+        own_faces.extend(here.into_iter().filter(|face| there.contains(face)));
         Circumstances {
             own_faces,
             ..Circumstances::default()

@@ -1,0 +1,130 @@
+//! Strokes as the lines of a frame: those of parts whose method is `curves` or `potrace`, found before the frame is drawn
+//! and inked by a pass of it.
+
+use crate::error::RenderError;
+use crate::frame::Frame;
+use crate::frame_graph::{FrameGraph, write};
+use crate::lines::{LineOptions, LineRenderer};
+use crate::options::RendererOptions;
+use npr_core::budget::Budget;
+use npr_core::camera::Camera;
+use npr_core::window::View;
+use npr_drawing::ink::ink_points;
+use npr_gpu::engine::{PassTime, Session};
+use npr_gpu::graph::{Graph, ResourceId, WorkSize};
+use npr_gpu::pass::Work;
+use npr_gpu::passes::stroke::DRAW_STROKES;
+use npr_stylesheet::Style;
+use npr_vector::rank::work::Arguments;
+use npr_vector::stroke::Drawing;
+use npr_vector::stroke_ink::InkPoint;
+
+/// Points that there is room for at first; frames with more of them make more room.
+const FIRST_ROOM: usize = 4096;
+
+/// The strokes that a camera sees, and how they were found.
+#[derive(Debug, Default)]
+pub(crate) struct FoundStrokes {
+    pub drawings: Vec<Drawing>,
+    pub times: Vec<PassTime>,
+    pub notices: Vec<String>,
+}
+
+impl FoundStrokes {
+    /// Tells with a frame how long it took to find them, and what the user should know of it.
+    pub fn tell(&self, frame: &mut Frame) {
+        frame.times.extend_from_slice(&self.times);
+        frame.notices.extend_from_slice(&self.notices);
+    }
+}
+
+/// Finds the strokes that a camera sees of the parts whose method asks for them; without a line model there is a notice
+/// instead.
+pub(crate) fn find(
+    lines: Option<&mut LineRenderer<'_>>,
+    camera: &Camera,
+    (style, options): (&Style, &RendererOptions),
+) -> Result<FoundStrokes, RenderError> {
+    let mut found = FoundStrokes::default();
+    if !style.has_curves() {
+        return Ok(found);
+    }
+    let Some(lines) = lines else {
+        let notice = "lines as curves are left out: no line model was given";
+        found.notices.push(notice.to_owned());
+        return Ok(found);
+    };
+    let of_style = LineOptions {
+        dpi: options.dpi,
+        ..LineOptions::of_style(style, options.size)
+    };
+    for method in style.curve_sources() {
+        let of_method = LineOptions { method, ..of_style };
+        let drawing = lines.draw_curves(camera, style, &of_method, &options.pictures)?;
+        found.times.extend_from_slice(lines.times());
+        found.notices.extend_from_slice(&drawing.notices);
+        found.drawings.push(drawing);
+    }
+    Ok(found)
+}
+
+/// The pass that inks strokes, and what the host fills for it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct StrokePasses {
+    points: ResourceId,
+    /// How many vertices are drawn.
+    size: ResourceId,
+}
+
+impl StrokePasses {
+    /// Adds the pass that inks strokes into a picture and its keys, which are cleared before where `clears`.
+    pub fn plan(frame: &mut FrameGraph, targets: [ResourceId; 2], clears: bool) -> Self {
+        let graph = &mut frame.graph;
+        let points = graph.buffer::<InkPoint>("stroke points", FIRST_ROOM);
+        let size = graph.buffer::<Arguments>("size of strokes", 1);
+        let drawn = WorkSize {
+            arguments: size,
+            index: 0,
+        };
+        let bound = [frame.output_window, points];
+        graph.draw_sized(&DRAW_STROKES, (&bound, &targets), clears, Some(drawn));
+        Self { points, size }
+    }
+
+    /// Hands over the strokes that a camera sees.
+    ///
+    /// Where there is less room than they take, the graph and its session get more, up to `memory_limit` for the whole
+    /// graph.
+    pub fn upload_view(
+        &self,
+        session: &mut dyn Session,
+        graph: &mut Graph,
+        (view, drawings): (&View, &[Drawing]),
+        memory_limit: u64,
+    ) -> Result<(), RenderError> {
+        let nearness = |depth: f64| view.nearness(depth as f32);
+        let points: Vec<InkPoint> = drawings
+            .iter()
+            .flat_map(|drawing| ink_points(drawing, &nearness))
+            .collect();
+
+        // Make room for more than there are: the next view may have a few more.
+        if points.len() > graph.element_count(self.points) {
+            let count = points.len() + points.len() / 2;
+            let mut grown = graph.clone();
+            grown.grow(self.points, count);
+            let planned = grown.planned_bytes() as usize;
+            Budget::new(memory_limit).take("the strokes of the frame", planned, 1)?;
+            session.grow(self.points, count)?;
+            *graph = grown;
+        }
+
+        // Write them, and how many there are.
+        let Work::Draw { vertices, .. } = DRAW_STROKES.work else {
+            unreachable!("strokes are drawn");
+        };
+        write(session, self.points, &points)?;
+        let count = Arguments::of_vertices(points.len() as u32 * vertices);
+        Ok(write(session, self.size, &[count])?)
+    }
+}
