@@ -5,17 +5,17 @@ use std::path::{Path, PathBuf};
 
 use npr_core::camera::{Camera, DEFAULT_FOV_DEG};
 use npr_gpu::engine::Engine;
-use npr_render::{Model, RenderError, Renderer, RendererOptions};
-use npr_scene::{LoadOptions, load};
+use npr_render::{RenderError, Renderer, RendererOptions};
+use npr_scene::{LoadOptions, Scene, load};
 use npr_stylesheet::Style;
 
 use crate::solid::bumpy_ball;
 
 /// A prepared model and the camera that looks at it, filling a 16:9 frame.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub struct Subject {
-    /// The model.
-    pub model: Model,
+    /// The model, with its lines.
+    pub prepared: npr_render::Subject,
     /// The camera that the command would choose.
     pub camera: Camera,
 }
@@ -27,7 +27,7 @@ impl Subject {
     ///
     /// [`RenderError`] where the ball cannot be numbered.
     pub fn ball(triangle_count: usize) -> Result<Self, RenderError> {
-        Model::new(&bumpy_ball(triangle_count)).map(Self::of)
+        Self::of(&bumpy_ball(triangle_count))
     }
 
     /// A model from a file.
@@ -37,12 +37,21 @@ impl Subject {
     /// Whatever loading or preparing it says.
     pub fn from_file(path: &Path) -> Result<Self, Box<dyn Error>> {
         let scene = load(path, &LoadOptions::default())?;
-        Ok(Self::of(Model::new(&scene)?))
+        Ok(Self::of(&scene)?)
     }
 
-    fn of(model: Model) -> Self {
-        let camera = model.framing(16.0 / 9.0, DEFAULT_FOV_DEG.to_radians());
-        Self { model, camera }
+    fn of(scene: &Scene) -> Result<Self, RenderError> {
+        // The style of the defaults draws strokes, so that lines are prepared for any other.
+        let prepared = npr_render::Subject::new(scene, &Style::default())?;
+        let camera = prepared
+            .model
+            .framing(16.0 / 9.0, DEFAULT_FOV_DEG.to_radians());
+        Ok(Self { prepared, camera })
+    }
+
+    /// Number of triangles.
+    pub fn triangle_count(&self) -> usize {
+        self.prepared.model.triangle_count()
     }
 
     /// A stage for this subject, drawn once so that memory and shaders are warm.
@@ -50,13 +59,14 @@ impl Subject {
     /// # Errors
     ///
     /// [`RenderError`] where the engine fails.
-    pub fn warm_renderer(
-        &self,
-        engine: &dyn Engine,
+    pub fn warm_renderer<'a>(
+        &'a self,
+        engine: &'a dyn Engine,
         style: &Style,
         size: [u32; 2],
-    ) -> Result<Renderer<'_>, RenderError> {
-        let mut renderer = Renderer::new(engine, &self.model, style, &RendererOptions::new(size))?;
+    ) -> Result<Renderer<'a>, RenderError> {
+        let options = RendererOptions::new(size);
+        let mut renderer = self.prepared.renderer(engine, style, &options)?;
         renderer.draw(&self.camera)?;
         Ok(renderer)
     }

@@ -4,7 +4,7 @@ use npr_core::camera::Camera;
 use npr_core::window::View;
 use npr_gpu::engine::Engine;
 use npr_gpu::processor::Processor;
-use npr_render::{Frame, Model, Renderer, RendererOptions};
+use npr_render::{Frame, Model, Renderer, RendererOptions, Subject};
 use npr_scene::Scene;
 use npr_stylesheet::Style;
 
@@ -53,22 +53,46 @@ pub fn models_camera(model: &Model, size: [u32; 2]) -> Camera {
 
 /// Draws a scene on the processor through [`models_camera`].
 pub fn draw(scene: &Scene, style: &Style, size: [u32; 2]) -> Frame {
-    let model = Model::new(scene).expect("a small scene");
-    let camera = models_camera(&model, size);
-    draw_on(&Processor, &model, style, &camera, size)
+    let subject = Subject::new(scene, style).expect("a small scene");
+    let camera = models_camera(&subject.model, size);
+    draw_of(
+        &Processor,
+        &subject,
+        style,
+        &camera,
+        &RendererOptions::new(size),
+    )
 }
 
 /// Draws a scene on the processor as a camera sees it.
 pub fn draw_from(scene: &Scene, style: &Style, camera: &Camera, size: [u32; 2]) -> Drawing {
-    let model = Model::new(scene).expect("a small scene");
+    let subject = Subject::new(scene, style).expect("a small scene");
+    let options = RendererOptions::new(size);
     Drawing {
-        frame: draw_on(&Processor, &model, style, camera, size),
-        view: camera.view(size, model.bounds()),
-        model,
+        frame: draw_of(&Processor, &subject, style, camera, &options),
+        view: camera.view(size, subject.model.bounds()),
+        model: subject.model,
     }
 }
 
-/// Draws a model on an engine.
+/// Draws a subject on an engine, with the strokes that a style asks for.
+///
+/// # Panics
+///
+/// Where the engine fails.
+pub fn draw_of(
+    engine: &dyn Engine,
+    subject: &Subject,
+    style: &Style,
+    camera: &Camera,
+    options: &RendererOptions,
+) -> Frame {
+    let renderer = subject.renderer(engine, style, options);
+    let mut renderer = renderer.expect("a small frame");
+    renderer.draw(camera).expect("a picture")
+}
+
+/// Draws a model on an engine; without its lines, so that strokes are drawn by method `shape`.
 ///
 /// # Panics
 ///
@@ -83,7 +107,7 @@ pub fn draw_on(
     draw_with(engine, model, style, camera, &RendererOptions::new(size))
 }
 
-/// Draws a model on an engine with options.
+/// Draws a model on an engine with options, without its lines.
 ///
 /// # Panics
 ///

@@ -25,7 +25,7 @@ mod smoke;
 mod wanted;
 
 pub use agreement::Agreement;
-pub use draw::{Drawing, draw, draw_from, draw_on, draw_with, lines, models_camera};
+pub use draw::{Drawing, draw, draw_from, draw_of, draw_on, draw_with, lines, models_camera};
 pub use files::{asset, models, samples};
 pub use ink::Ink;
 pub use montage::{beside, cropped, enlarged, reduced};

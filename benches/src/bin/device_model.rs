@@ -183,7 +183,7 @@ fn measure_subject(
     size: [u32; 2],
 ) -> Outcome<Vec<Row>> {
     let options = RendererOptions::new(size);
-    let mut renderer = Renderer::new(engine, &subject.model, style, &options)?;
+    let mut renderer = subject.prepared.renderer(engine, style, &options)?;
     measured(&mut renderer, &subject.camera)
 }
 
@@ -275,7 +275,7 @@ fn report(job: &Job, engine: &str, rows: &[Row]) {
     println!(
         "- scene: {}, {} triangles, `{}`, {}x{}",
         job.name,
-        job.subject.model.triangle_count(),
+        job.subject.triangle_count(),
         job.preset,
         job.size[0],
         job.size[1]
@@ -377,7 +377,7 @@ fn goals(job: &Job, frame: &Cost) {
         "- under {GOAL_MS} ms at {} GB/s, asked of 300000 triangles with strokes: predicted {ms:.2} ms ({best:.2} to \
          {worst:.2} with launches of 3 to 10 us) for {} triangles without strokes, so it {}",
         GOAL.gigabytes_per_s,
-        job.subject.model.triangle_count(),
+        job.subject.triangle_count(),
         verdict(ms < GOAL_MS)
     );
     let bytes = frame.bytes() as f64 / job.pixels();
@@ -431,7 +431,7 @@ fn others(job: &Job, engine: &dyn Engine) -> Outcome<()> {
             look = format!("{preset}, {setting}");
         }
         let rows = measure_subject(engine, subject, &style, size)?;
-        let triangles = subject.model.triangle_count();
+        let triangles = subject.triangle_count();
         add(format!("{of}, `{look}`"), triangles, size, &rows);
     }
     let smoke = measure_smoke(engine)?;

@@ -13,7 +13,7 @@ use npr_benches::table::Table;
 use npr_benches::timing::{Times, elapsed_ms};
 use npr_benches::{machine, memory};
 use npr_gpu::processor::Processor;
-use npr_render::{Renderer, RendererOptions};
+use npr_render::RendererOptions;
 use npr_stylesheet::Style;
 
 /// Triangles of the published table, and one number between.
@@ -163,7 +163,7 @@ fn measure_grid(look: &Look) -> Outcome<Vec<Sample>> {
     let samples = cells.iter().zip(times);
     Ok(samples
         .map(|(cell, times)| Sample {
-            triangles: cell.subject.model.triangle_count() as f64,
+            triangles: cell.subject.triangle_count() as f64,
             pixels: f64::from(cell.size[0]) * f64::from(cell.size[1]),
             ms: times.least,
         })
@@ -260,7 +260,7 @@ fn print_bunny() -> Outcome<()> {
     println!("## A scanned bunny at 1920x1080, preset `toon`\n");
     println!(
         "- {} triangles, framed as the command frames it",
-        subject.model.triangle_count()
+        subject.triangle_count()
     );
     println!("- frame: {times} ms");
     println!(
@@ -296,7 +296,9 @@ fn child_peak(file: &Path) -> Outcome<String> {
 fn print_peak(file: &Path) -> Outcome<()> {
     let subject = Subject::from_file(file)?;
     let options = RendererOptions::new(FULL_HD);
-    Renderer::new(&Processor, &subject.model, &Style::default(), &options)?
+    subject
+        .prepared
+        .renderer(&Processor, &Style::default(), &options)?
         .draw(&subject.camera)?;
     match memory::peak_bytes() {
         Some(bytes) => println!("{:.0}", bytes as f64 / 1e6),

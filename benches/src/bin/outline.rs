@@ -22,7 +22,6 @@ use npr_benches::{device, machine};
 use npr_core::camera::{Camera, Projection};
 use npr_gpu::engine::Engine;
 use npr_gpu::processor::Processor;
-use npr_render::Model;
 use npr_stylesheet::Style;
 
 type Outcome<T> = Result<T, Box<dyn Error>>;
@@ -197,8 +196,8 @@ fn objects_on(engine: &dyn Engine) -> Outcome<()> {
 
     // Make one ball, ten characters, and the same ten as one object.
     let subject = |scene| -> Outcome<Subject> {
-        let model = Model::new(&scene)?;
-        Ok(Subject { model, camera })
+        let prepared = npr_render::Subject::new(&scene, &Style::default())?;
+        Ok(Subject { prepared, camera })
     };
     let subjects = [
         ("one", subject(row_of_balls(1, TRIANGLES))?),

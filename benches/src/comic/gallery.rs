@@ -5,8 +5,8 @@ use std::path::Path;
 
 use npr_core::camera::DEFAULT_FOV_DEG;
 use npr_gpu::processor::Processor;
-use npr_render::{Model, Renderer, RendererOptions};
-use npr_scene::{LoadOptions, load};
+use npr_render::{RendererOptions, Subject};
+use npr_scene::{LoadOptions, Scene, load};
 use npr_stylesheet::{Style, presets};
 
 use crate::lines::subjects::shared_models;
@@ -37,15 +37,15 @@ const COLUMNS: usize = 3;
 /// Where a model cannot be read or a sheet cannot be written.
 pub fn write(folder: &Path, names: &[String]) -> Result<(), Box<dyn Error>> {
     // Read the models that are there.
-    let mut models = Vec::new();
+    let mut scenes = Vec::new();
     for path in MODELS.map(|name| shared_models().join(name)) {
         if path.is_file() {
-            models.push(Model::new(&load(&path, &LoadOptions::default())?)?);
+            scenes.push(load(&path, &LoadOptions::default())?);
         } else {
             eprintln!("left out: there is no {}", path.display());
         }
     }
-    if models.is_empty() {
+    if scenes.is_empty() {
         return Ok(());
     }
 
@@ -54,20 +54,22 @@ pub fn write(folder: &Path, names: &[String]) -> Result<(), Box<dyn Error>> {
     for preset in presets() {
         if names.is_empty() || names.iter().any(|name| name == preset.name) {
             let path = folder.join(format!("{}.png", preset.name));
-            write_sheet(&path, &models, &Style::preset(preset.name)?)?;
+            write_sheet(&path, &scenes, &Style::preset(preset.name)?)?;
             println!("{}", path.display());
         }
     }
     Ok(())
 }
 
-/// Draws every model in a style and writes them beside each other.
-fn write_sheet(path: &Path, models: &[Model], style: &Style) -> Result<(), Box<dyn Error>> {
-    let mut sheet = Sheet::new(models.len().min(COLUMNS), [SIDE; 2]);
-    for model in models {
+/// Draws every scene in a style and writes them beside each other.
+fn write_sheet(path: &Path, scenes: &[Scene], style: &Style) -> Result<(), Box<dyn Error>> {
+    let mut sheet = Sheet::new(scenes.len().min(COLUMNS), [SIDE; 2]);
+    for scene in scenes {
+        let subject = Subject::new(scene, style)?;
         let options = RendererOptions::new([SIDE; 2]);
-        let camera = model.framing(1.0, DEFAULT_FOV_DEG.to_radians());
-        sheet.add(&Renderer::new(&Processor, model, style, &options)?.draw(&camera)?);
+        let camera = subject.model.framing(1.0, DEFAULT_FOV_DEG.to_radians());
+        let mut renderer = subject.renderer(&Processor, style, &options)?;
+        sheet.add(&renderer.draw(&camera)?);
     }
     sheet.write(path)
 }

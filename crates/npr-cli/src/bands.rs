@@ -178,7 +178,7 @@ mod tests {
         };
         let cases: [(&[&str], bool); 3] = [
             (&["line.method=shape"], true),
-            (&["line.method=curves"], true),
+            (&["line.method=strokes"], true),
             (&["blend.with=toon", "blend.amount=0.5"], false),
         ];
         for (keys, in_bands) in cases {

@@ -342,6 +342,7 @@ mod tests {
     fn a_coarse_mask_under_thin_lines_is_warned_of() {
         assert_eq!(look(&[]).width_warning(1080), None);
         let coarse = look(&[
+            "line.method=shape",
             "detect.scale=6",
             "line.width.base=6px",
             "line.width.min=0.5",

@@ -18,10 +18,7 @@ use crate::viewpoint::{self, Seen};
 use crate::volume::{self, Order};
 use npr_core::camera::Camera;
 use npr_gpu::engine::Engine;
-use npr_render::{
-    Frame, LineModel, LineModelOptions, LineRenderer, Model, RenderError, Renderer,
-    RendererOptions, Smoke, facts_of,
-};
+use npr_render::{Frame, LineModelOptions, Model, RendererOptions, Smoke, Subject, facts_of};
 use npr_scene::{Limits, Scene};
 use npr_stylesheet::{Facts, Occasion, Style};
 use std::io::Write;
@@ -55,7 +52,8 @@ fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Frame>, Fault> {
     let engine = EngineChoice::begin(&job.args.drawing);
     let (prepared, smoke) = prepare(job, progress)?;
     let empty = Smoke::default();
-    let camera = prepared.camera(&job.args.drawing, smoke.as_ref().unwrap_or(&empty))?;
+    let smoke_in_it = smoke.as_ref().unwrap_or(&empty);
+    let camera = camera_of(&prepared, &job.args.drawing, smoke_in_it)?;
     let options = RendererOptions {
         smoke,
         in_bands: true,
@@ -95,32 +93,14 @@ enum Picture {
     InBands(Result<Frame, Fault>),
 }
 
-/// A scene prepared for drawing, with a line model where the style draws lines as curves.
-pub struct Prepared {
-    model: Model,
-    lines: Option<LineModel>,
-}
-
-impl Prepared {
-    /// The camera that the user asked for, or one that frames the scene and the smoke in it.
-    pub fn camera(&self, args: &DrawingArguments, smoke: &Smoke) -> Result<Camera, Fault> {
-        let model = &self.model;
-        viewpoint::camera(&args.camera, &Seen { model, smoke }, args.size)
-    }
-
-    /// A renderer of the scene, in a style and on an engine.
-    pub fn renderer<'a>(
-        &'a self,
-        engine: &'a dyn Engine,
-        style: &Style,
-        options: &RendererOptions,
-    ) -> Result<Renderer<'a>, RenderError> {
-        let renderer = Renderer::new(engine, &self.model, style, options)?;
-        Ok(match &self.lines {
-            Some(lines) => renderer.with_lines(LineRenderer::new(engine, lines)),
-            None => renderer,
-        })
-    }
+/// The camera that the user asked for, or one that frames the scene and the smoke in it.
+pub fn camera_of(
+    subject: &Subject,
+    args: &DrawingArguments,
+    smoke: &Smoke,
+) -> Result<Camera, Fault> {
+    let model = &subject.model;
+    viewpoint::camera(&args.camera, &Seen { model, smoke }, args.size)
 }
 
 /// Prepares a scene for drawing in a style.
@@ -130,28 +110,24 @@ pub fn prepared(
     limits: &Limits,
     cache: Option<&Path>,
     progress: &mut Progress,
-) -> Result<Prepared, Fault> {
+) -> Result<Subject, Fault> {
     // Prepare surfaces.
     let model = progress.step("prepare", || Model::cached(scene, cache))?;
 
-    // Prepare lines as curves, where the style has any.
-    let lines = style.has_curves().then(|| {
+    // Prepare its lines, where the style draws strokes.
+    let mut lines = None;
+    if style.has_curves() {
         let options = LineModelOptions {
             memory_limit: limits.memory_bytes,
             ..LineModelOptions::default()
         };
-        progress.step("prepare", || {
-            LineModel::for_style(scene, style, &options, cache)
-        })
-    });
-    Ok(Prepared {
-        model,
-        lines: lines.transpose()?,
-    })
+        lines = progress.step("prepare", || Subject::lines(scene, style, &options, cache))?;
+    }
+    Ok(Subject { model, lines })
 }
 
 /// Loads and prepares the scene and the smoke in it, and warns about what is ignored.
-fn prepare(job: &Job<'_>, progress: &mut Progress) -> Result<(Prepared, Option<Smoke>), Fault> {
+fn prepare(job: &Job<'_>, progress: &mut Progress) -> Result<(Subject, Option<Smoke>), Fault> {
     // Load the scene, and refuse to draw over its files.
     let (limits, external) = (
         job.args.drawing.limits.limits(),
@@ -204,7 +180,7 @@ fn warn_of<'a>(job: &Job<'_>, model: &'a Model, of_smoke: impl Iterator<Item = &
 
 fn draw_frame(
     (job, engine): (&Job<'_>, &EngineChoice<'_>),
-    prepared: &Prepared,
+    prepared: &Subject,
     options: &RendererOptions,
     camera: &Camera,
     progress: &mut Progress,

@@ -11,14 +11,14 @@ use crate::look::Look;
 use crate::message;
 use crate::output::Output;
 use crate::progress::{Counter, Progress};
-use crate::render::{self, Prepared};
+use crate::render;
 use crate::source::{Loaded, Source};
 use crate::timings::Timings;
 use crate::viewpoint::unknown_camera;
 use crate::volume::{self, Film, Order, Shots, VolumeSource};
 use npr_core::camera::Camera;
 use npr_gpu::engine::{Engine, PassTime};
-use npr_render::{Frame, RenderError, Renderer, RendererOptions, Shot, Smoke, facts_of};
+use npr_render::{Frame, RenderError, Renderer, RendererOptions, Shot, Smoke, Subject, facts_of};
 use npr_smoke::film::{Moments, Numbered};
 use std::cell::{Cell, RefCell};
 use std::io::Write;
@@ -254,16 +254,16 @@ fn tell_notices(
 }
 
 /// The camera asked for, or one that frames the smoke of all pictures.
-fn camera(job: &Job<'_>, prepared: &Prepared, film: &Film) -> Result<Camera, Fault> {
+fn camera(job: &Job<'_>, prepared: &Subject, film: &Film) -> Result<Camera, Fault> {
     let spheres = film.frames.iter().flat_map(|smoke| &smoke.spheres);
     let all = Smoke::new(spheres.copied().collect());
-    prepared.camera(&job.args.drawing, &all)
+    render::camera_of(prepared, &job.args.drawing, &all)
 }
 
 /// Draws and writes every picture, and gives the times of their passes, added up.
 fn draw_film(
     (job, engine): (&Job<'_>, &EngineChoice<'_>),
-    prepared: &Prepared,
+    prepared: &Subject,
     film: &Film,
     outputs: &[Output],
     camera: &Camera,

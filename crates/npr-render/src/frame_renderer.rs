@@ -114,13 +114,14 @@ impl Needs {
         styled.inked.notices.extend(contrast.notice.clone());
         if model.has_lines() && !style.has_curves() {
             let notice =
-                "lines of the file are left out: only line.method curves and potrace draw them";
+                "lines of the file are left out: only line.method strokes and potrace draw them";
             styled.inked.notices.push(notice.to_owned());
         }
-        let mut features = LineFeatures::needs(style);
-        if model.triangles.is_empty() {
-            features = features.without_surfaces();
-        }
+        let mut features = match (model.triangles.is_empty(), model.has_lines()) {
+            (false, _) => LineFeatures::needs(style),
+            (true, true) => LineFeatures::needs(style).without_surfaces(),
+            (true, false) => LineFeatures::NONE,
+        };
         features.contrast = contrast.is_on;
 
         // Cut the frame into tiles, with as much room around each as lines and smoke reach.

@@ -1,20 +1,21 @@
 //! Scene and style in, drawing out.
 //!
-//! [`Model::new`] prepares a scene once: welds it, finds its edges and curvature. A [`Renderer`] joins a model with a
-//! style and a frame size on an engine, and [`Renderer::draw`] makes a picture for a camera, as often as wanted;
+//! [`Subject::new`] prepares a scene once: a [`Model`], welded, with edges and curvature, and a [`LineModel`], which
+//! strokes are found in. A [`Renderer`] joins it with a style and a frame size on an engine, and [`Renderer::draw`] makes a picture for a camera, as often as wanted;
 //! [`Renderer::frames`] draws sequences, the next frame on its way while the one before is used.
-//! [`Smoke`] among its options is drawn with it, or alone with a model of an empty scene. [`LineModel`] draws the
-//! same scene as curves instead; a [`LineRenderer`] lets a device do its part.
+//! [`Smoke`] among its options is drawn with it, or alone with a model of an empty scene. A [`LineModel`] alone draws
+//! the same scene as curves; a [`LineRenderer`] lets a device do its part.
 //!
 //! ```
 //! use npr_core::camera::Camera;
 //! use npr_gpu::processor::Processor;
-//! use npr_render::{Model, Renderer, RendererOptions};
+//! use npr_render::{RendererOptions, Subject};
 //! use npr_scene::Scene;
 //! use npr_stylesheet::Style;
 //!
-//! let model = Model::new(&Scene::default())?;
-//! let mut renderer = Renderer::new(&Processor, &model, &Style::default(), &RendererOptions::new([64, 36]))?;
+//! let style = Style::default();
+//! let subject = Subject::new(&Scene::default(), &style)?;
+//! let mut renderer = subject.renderer(&Processor, &style, &RendererOptions::new([64, 36]))?;
 //! let frame = renderer.draw(&Camera::framing([-1.0; 3], [1.0; 3]))?;
 //! assert_eq!(frame.rgba.len(), 64 * 36 * 4);
 //! # Ok::<(), npr_render::RenderError>(())
@@ -53,6 +54,7 @@ mod renderer;
 mod sequence;
 mod sky;
 mod smoke;
+mod subject;
 mod surfaces;
 mod textures;
 mod tiles;
@@ -77,3 +79,4 @@ pub use puffs::Following;
 pub use renderer::Renderer;
 pub use sequence::{Frames, Shot};
 pub use smoke::Smoke;
+pub use subject::Subject;

@@ -217,7 +217,7 @@ fn highlighted(highlight: &Highlight) -> Part {
 /// The bits of a part whose outline is drawn by a method.
 fn outline_flags(method: OutlineMethod) -> u32 {
     match method {
-        OutlineMethod::Off | OutlineMethod::Curves | OutlineMethod::Potrace => 0,
+        OutlineMethod::Off | OutlineMethod::Strokes | OutlineMethod::Potrace => 0,
         OutlineMethod::Hull => Part::HULL,
         OutlineMethod::FilterHull => Part::LINES | Part::HULL,
         OutlineMethod::Angle => Part::ANGLE,

@@ -247,7 +247,7 @@ impl Model {
         self.triangles.is_empty() && self.line_points.is_empty()
     }
 
-    /// Whether the file has lines as geometry, which only line methods `curves` and `potrace` draw.
+    /// Whether the file has lines as geometry, which only line methods `strokes` and `potrace` draw.
     pub fn has_lines(&self) -> bool {
         !self.line_points.is_empty()
     }

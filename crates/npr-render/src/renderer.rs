@@ -21,12 +21,16 @@ use npr_gpu::cost::PassCost;
 use npr_gpu::engine::{Engine, IN_FLIGHT};
 use npr_stylesheet::Style;
 
+/// What a frame says that has no strokes for want of a line model.
+pub(crate) const NO_STROKES: &str =
+    "lines of method strokes are drawn by method shape, for want of a line model";
+
 /// A model, a style and a frame size on an engine: draws a picture for any camera.
 pub struct Renderer<'a> {
     model: &'a Model,
     /// What the passes of a frame draw.
     frames: FrameRenderer,
-    /// Gives the lines of parts whose method is `curves` or `potrace`.
+    /// Gives the lines of parts whose method is `strokes` or `potrace`.
     lines: Option<LineRenderer<'a>>,
     speed_lines: Option<SpeedLines<'a>>,
     /// The look that shows through, and how much of it.
@@ -62,10 +66,16 @@ impl<'a> RendererPlan<'a> {
         model: &'a Model,
         style: &Style,
         options: &RendererOptions,
+        has_lines: bool,
     ) -> Result<Self, RenderError> {
         // Resolve the style and its words.
         check_size(options.size)?;
+        let shapes = style.with_shapes_for_strokes().filter(|_| !has_lines);
+        let style = shapes.as_ref().unwrap_or(style);
         let mut styled = StyledModel::new(model, style, options)?;
+        if shapes.is_some() {
+            styled.inked.notices.push(NO_STROKES.to_owned());
+        }
         let lettering = Lettering::new(style, &options.fonts)?;
         let notices = &mut styled.inked.notices;
         notices.extend_from_slice(lettering.notices());
@@ -98,7 +108,7 @@ impl<'a> RendererPlan<'a> {
                 memory_limit: options.memory_limit - planned_bytes,
                 ..options.clone()
             };
-            let other = Self::new(model, &style.blended_with()?, &left)?;
+            let other = Self::new(model, &style.blended_with()?, &left, has_lines)?;
             planned_bytes += other.planned_bytes;
             blended = Some((Box::new(other), blending));
         }
@@ -112,16 +122,23 @@ impl<'a> RendererPlan<'a> {
         })
     }
 
-    /// Prepares all of it on an engine.
-    fn prepare(self, engine: &dyn Engine) -> Result<Renderer<'a>, RenderError> {
+    /// Prepares all of it on an engine; both looks of a blend have the strokes of one line model.
+    fn prepare(
+        self,
+        engine: &dyn Engine,
+        lines: Option<LineRenderer<'a>>,
+    ) -> Result<Renderer<'a>, RenderError> {
         let blended = match self.blended {
-            Some((other, blending)) => Some((Box::new(other.prepare(engine)?), blending)),
+            Some((other, blending)) => {
+                let of_other = lines.as_ref().map(LineRenderer::another);
+                Some((Box::new(other.prepare(engine, of_other)?), blending))
+            }
             None => None,
         };
         Ok(Renderer {
             model: self.model,
             frames: self.frames.prepare(self.model, engine)?,
-            lines: None,
+            lines,
             speed_lines: self.speed_lines,
             blended,
             lettering: self.lettering,
@@ -132,6 +149,9 @@ impl<'a> RendererPlan<'a> {
 
 impl<'a> Renderer<'a> {
     /// Plans the frame, checks that it fits, and uploads what does not change with the camera.
+    ///
+    /// Without a line model there are no strokes: lines of method `strokes` are drawn by method `shape`, those of
+    /// `potrace` are left out, and [`Frame::notices`] tells. [`Renderer::with_lines`] draws them.
     ///
     /// # Errors
     ///
@@ -144,16 +164,35 @@ impl<'a> Renderer<'a> {
         style: &Style,
         options: &RendererOptions,
     ) -> Result<Self, RenderError> {
-        RendererPlan::new(model, style, options)?.prepare(engine)
+        RendererPlan::new(model, style, options, false)?.prepare(engine, None)
     }
 
-    /// The same, with the lines of parts whose `line.method` is `curves` or `potrace` from a line model of the scene,
-    /// on an engine that may be another one.
+    /// The same, with strokes from a line model of the scene, found on an engine that may be another one.
     ///
-    /// Without one they have no lines, and [`Frame::notices`] tells.
-    pub fn with_lines(mut self, lines: LineRenderer<'a>) -> Self {
-        self.lines = Some(lines);
-        self
+    /// ```
+    /// # use npr_gpu::processor::Processor;
+    /// # use npr_render::{LineModel, LineModelOptions, LineRenderer, Model, Renderer, RendererOptions};
+    /// # let scene = npr_scene::Scene::default();
+    /// # let style = npr_stylesheet::Style::default();
+    /// let model = Model::new(&scene)?;
+    /// let lines = LineModel::for_style(&scene, &style, &LineModelOptions::default(), None)?;
+    /// let lines = LineRenderer::new(&Processor, &lines);
+    /// let options = RendererOptions::new([64, 36]);
+    /// let mut renderer = Renderer::with_lines(&Processor, (&model, lines), &style, &options)?;
+    /// renderer.draw(&model.framing(16.0 / 9.0, 0.7))?;
+    /// # Ok::<(), npr_render::RenderError>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// As [`Renderer::new`].
+    pub fn with_lines(
+        engine: &dyn Engine,
+        (model, lines): (&'a Model, LineRenderer<'a>),
+        style: &Style,
+        options: &RendererOptions,
+    ) -> Result<Self, RenderError> {
+        RendererPlan::new(model, style, options, true)?.prepare(engine, Some(lines))
     }
 
     /// The same renderer, which calls `tell` after each tile with how many are done, of how many; never for a single

@@ -129,12 +129,12 @@ fn check_method(method: Option<OutlineMethod>, rule: usize) -> Result<(), StyleE
             | OutlineMethod::Shape
             | OutlineMethod::Hull
             | OutlineMethod::Angle
-            | OutlineMethod::Curves
+            | OutlineMethod::Strokes
             | OutlineMethod::Potrace,
         ) => Ok(()),
         Some(_) => Err(StyleError::unfit(
             format!("rule.{rule}.line.method"),
-            "works on whole pictures; a part may have shape, hull, angle, curves, potrace or none",
+            "works on whole pictures; a part may have strokes, shape, hull, angle, potrace or none",
         )),
     }
 }

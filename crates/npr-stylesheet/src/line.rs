@@ -14,8 +14,12 @@ pub enum OutlineMethod {
     /// No lines.
     #[serde(rename = "none")]
     Off,
-    /// Found on images, drawn on shapes: edges are chosen by kind and joined roundly.
+    /// Strokes of `npr lines`: exact, with hidden lines removed, joined and smoothed. Where no line model of the scene
+    /// can be had, `shape` is in their place.
     #[default]
+    #[serde(alias = "curves")]
+    Strokes,
+    /// Found on images, drawn on shapes: edges are chosen by kind and joined roundly.
     Shape,
     /// The same as published: every edge of a front face, square ends [Okuya et al. 2016].
     Okuya,
@@ -32,11 +36,7 @@ pub enum OutlineMethod {
     Rim,
     /// Pixels whose surface lies near its silhouette, by an angle [Gooch et al. 1999].
     Angle,
-    /// Strokes of `npr lines`: exact, with hidden lines removed, joined and smoothed, drawn over the finished
-    /// surfaces, their beams and everything. They cost what a line drawing costs.
-    Curves,
-    /// Strokes made of the pixels of a picture of all lines, as published [Jiang et al. 2022]; drawn as those of
-    /// `curves`.
+    /// Strokes made of the pixels of a picture of all lines, as published [Jiang et al. 2022].
     Potrace,
 }
 
@@ -44,7 +44,7 @@ impl OutlineMethod {
     /// How a method that draws the strokes of a line drawing finds its lines; `None` for other methods.
     pub const fn source(self) -> Option<LineSource> {
         match self {
-            Self::Curves => Some(LineSource::Edges),
+            Self::Strokes => Some(LineSource::Edges),
             Self::Potrace => Some(LineSource::Potrace),
             _ => None,
         }
@@ -69,8 +69,8 @@ pub enum CreaseFrom {
 style_table! {
 /// Which lines are drawn, and with what.
 pub struct Line {
-    /// How lines are found and drawn; default `shape`. The others are there for comparison.
-    pub method: OutlineMethod = OutlineMethod::Shape,
+    /// How lines are found and drawn; default `strokes`. The others are there for comparison.
+    pub method: OutlineMethod = OutlineMethod::Strokes,
     /// Colour of the ink; default dark brown. A dark tone of the picture's main hue looks softer.
     pub color: Color = Color::rgb(0x2b, 0x1a, 0x12),
     /// How much the ink covers, 0..1; default 1. 0.3 a hard pencil, 1 ink.

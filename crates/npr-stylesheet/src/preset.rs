@@ -22,13 +22,13 @@ pub struct Preset {
 const PRESETS: &[Preset] = &[
     Preset {
         name: "toon",
-        version: 1,
+        version: 2,
         title: "Three flat tones of the material's colour under dark brown lines",
         text: include_str!("../presets/toon.toml"),
     },
     Preset {
         name: "ink",
-        version: 1,
+        version: 2,
         title: "Black swelling lines and solid shadows on warm white paper",
         text: include_str!("../presets/ink.toml"),
     },
@@ -40,92 +40,92 @@ const PRESETS: &[Preset] = &[
     },
     Preset {
         name: "technical",
-        version: 1,
+        version: 2,
         title: "Thin even lines on plain white parts, with every crease",
         text: include_str!("../presets/technical.toml"),
     },
     Preset {
         name: "comic-silver",
-        version: 1,
+        version: 2,
         title: "Flat colours, hatching that swells into solid ink, thick swelling outlines",
         text: include_str!("../presets/comic-silver.toml"),
     },
     Preset {
         name: "comic-modern",
-        version: 2,
+        version: 3,
         title: "Soft gradients, thin even lines, small blacks and fine hatching",
         text: include_str!("../presets/comic-modern.toml"),
     },
     Preset {
         name: "comic-light",
-        version: 1,
+        version: 2,
         title: "comic-silver, and materials named Beam* glow: lasers, flashes, explosions, trails",
         text: include_str!("../presets/comic-light.toml"),
     },
     Preset {
         name: "simple-comic",
-        version: 1,
+        version: 2,
         title: "Cel colours, solid black shade, thick even outlines",
         text: include_str!("../presets/simple-comic.toml"),
     },
     Preset {
         name: "crosshatch",
-        version: 1,
+        version: 2,
         title: "Pen strokes round the form, crossed in the dark, on white paper",
         text: include_str!("../presets/crosshatch.toml"),
     },
     Preset {
         name: "stipple",
-        version: 1,
+        version: 2,
         title: "Dots set by hand, dense in the dark, with fine outlines",
         text: include_str!("../presets/stipple.toml"),
     },
     Preset {
         name: "pencil",
-        version: 1,
+        version: 2,
         title: "Graphite on rough paper: shaky strokes, grey lines",
         text: include_str!("../presets/pencil.toml"),
     },
     Preset {
         name: "screentone",
-        version: 1,
+        version: 2,
         title: "Manga page: dots in rows on the picture, solid blacks, clean lines",
         text: include_str!("../presets/screentone.toml"),
     },
     Preset {
         name: "cel-2",
-        version: 1,
+        version: 2,
         title: "Two flat tones under thin lines, as painted on a cel",
         text: include_str!("../presets/cel-2.toml"),
     },
     Preset {
         name: "cel-3",
-        version: 1,
+        version: 2,
         title: "Two flat tones and a crisp highlight under thin lines",
         text: include_str!("../presets/cel-3.toml"),
     },
     Preset {
         name: "coloured-lines",
-        version: 1,
+        version: 2,
         title: "Flat tones under lines in a deep shade of each surface's own colour",
         text: include_str!("../presets/coloured-lines.toml"),
     },
     Preset {
         name: "atmosphere",
-        version: 1,
+        version: 2,
         title: "Flat tones under dark lines that pale and cool with distance",
         text: include_str!("../presets/atmosphere.toml"),
     },
     Preset {
         name: "lit-lines",
-        version: 1,
+        version: 2,
         title: "Lines thin and warm where lit, heavy and cool in the shade, \
                 bright where light from behind catches them",
         text: include_str!("../presets/lit-lines.toml"),
     },
     Preset {
         name: "night",
-        version: 1,
+        version: 2,
         title: "Dark cel paint whose lines lift from dark backgrounds, just enough to read",
         text: include_str!("../presets/night.toml"),
     },
@@ -137,37 +137,37 @@ const PRESETS: &[Preset] = &[
     },
     Preset {
         name: "smoke-cel-2",
-        version: 1,
+        version: 2,
         title: "Smoke in two tones under a dark line, as painted on a cel",
         text: include_str!("../presets/smoke-cel-2.toml"),
     },
     Preset {
         name: "smoke-cel-3",
-        version: 1,
+        version: 2,
         title: "Smoke in three tones under a dark line",
         text: include_str!("../presets/smoke-cel-3.toml"),
     },
     Preset {
         name: "smoke-ink",
-        version: 1,
+        version: 2,
         title: "Smoke in brush lines and solid blacks on white",
         text: include_str!("../presets/smoke-ink.toml"),
     },
     Preset {
         name: "smoke-comic",
-        version: 1,
+        version: 2,
         title: "Smoke in pen strokes that swell into solid ink, as in comics",
         text: include_str!("../presets/smoke-comic.toml"),
     },
     Preset {
         name: "cloud",
-        version: 1,
+        version: 2,
         title: "Bright clouds in four soft tones without lines",
         text: include_str!("../presets/cloud.toml"),
     },
     Preset {
         name: "explosion",
-        version: 1,
+        version: 2,
         title: "Fire and smoke by heat: white heart, yellow, orange, soot",
         text: include_str!("../presets/explosion.toml"),
     },
@@ -198,12 +198,152 @@ const PRESETS: &[Preset] = &[
 ];
 
 /// Older versions of presets. A style that names such a version keeps its look.
-const OLDER: &[Preset] = &[Preset {
-    name: "comic-modern",
-    version: 1,
-    title: "Soft gradients, thin lines, small blacks and fine hatching",
-    text: include_str!("../presets/older/comic-modern-1.toml"),
-}];
+const OLDER: &[Preset] = &[
+    Preset {
+        name: "atmosphere",
+        version: 1,
+        title: "Flat tones under dark lines that pale and cool with distance",
+        text: include_str!("../presets/older/atmosphere-1.toml"),
+    },
+    Preset {
+        name: "cel-2",
+        version: 1,
+        title: "Two flat tones under thin lines, as painted on a cel",
+        text: include_str!("../presets/older/cel-2-1.toml"),
+    },
+    Preset {
+        name: "cel-3",
+        version: 1,
+        title: "Two flat tones and a crisp highlight under thin lines",
+        text: include_str!("../presets/older/cel-3-1.toml"),
+    },
+    Preset {
+        name: "cloud",
+        version: 1,
+        title: "Bright clouds in four soft tones without lines",
+        text: include_str!("../presets/older/cloud-1.toml"),
+    },
+    Preset {
+        name: "coloured-lines",
+        version: 1,
+        title: "Flat tones under lines in a deep shade of each surface's own colour",
+        text: include_str!("../presets/older/coloured-lines-1.toml"),
+    },
+    Preset {
+        name: "comic-light",
+        version: 1,
+        title: "comic-silver, and materials named Beam* glow: lasers, flashes, explosions, trails",
+        text: include_str!("../presets/older/comic-light-1.toml"),
+    },
+    Preset {
+        name: "comic-modern",
+        version: 1,
+        title: "Soft gradients, thin lines, small blacks and fine hatching",
+        text: include_str!("../presets/older/comic-modern-1.toml"),
+    },
+    Preset {
+        name: "comic-modern",
+        version: 2,
+        title: "Soft gradients, thin even lines, small blacks and fine hatching",
+        text: include_str!("../presets/older/comic-modern-2.toml"),
+    },
+    Preset {
+        name: "comic-silver",
+        version: 1,
+        title: "Flat colours, hatching that swells into solid ink, thick swelling outlines",
+        text: include_str!("../presets/older/comic-silver-1.toml"),
+    },
+    Preset {
+        name: "crosshatch",
+        version: 1,
+        title: "Pen strokes round the form, crossed in the dark, on white paper",
+        text: include_str!("../presets/older/crosshatch-1.toml"),
+    },
+    Preset {
+        name: "explosion",
+        version: 1,
+        title: "Fire and smoke by heat: white heart, yellow, orange, soot",
+        text: include_str!("../presets/older/explosion-1.toml"),
+    },
+    Preset {
+        name: "ink",
+        version: 1,
+        title: "Black swelling lines and solid shadows on warm white paper",
+        text: include_str!("../presets/older/ink-1.toml"),
+    },
+    Preset {
+        name: "lit-lines",
+        version: 1,
+        title: "Lines thin and warm where lit, heavy and cool in the shade, bright where light from behind catches them",
+        text: include_str!("../presets/older/lit-lines-1.toml"),
+    },
+    Preset {
+        name: "night",
+        version: 1,
+        title: "Dark cel paint whose lines lift from dark backgrounds, just enough to read",
+        text: include_str!("../presets/older/night-1.toml"),
+    },
+    Preset {
+        name: "pencil",
+        version: 1,
+        title: "Graphite on rough paper: shaky strokes, grey lines",
+        text: include_str!("../presets/older/pencil-1.toml"),
+    },
+    Preset {
+        name: "screentone",
+        version: 1,
+        title: "Manga page: dots in rows on the picture, solid blacks, clean lines",
+        text: include_str!("../presets/older/screentone-1.toml"),
+    },
+    Preset {
+        name: "simple-comic",
+        version: 1,
+        title: "Cel colours, solid black shade, thick even outlines",
+        text: include_str!("../presets/older/simple-comic-1.toml"),
+    },
+    Preset {
+        name: "smoke-cel-2",
+        version: 1,
+        title: "Smoke in two tones under a dark line, as painted on a cel",
+        text: include_str!("../presets/older/smoke-cel-2-1.toml"),
+    },
+    Preset {
+        name: "smoke-cel-3",
+        version: 1,
+        title: "Smoke in three tones under a dark line",
+        text: include_str!("../presets/older/smoke-cel-3-1.toml"),
+    },
+    Preset {
+        name: "smoke-comic",
+        version: 1,
+        title: "Smoke in pen strokes that swell into solid ink, as in comics",
+        text: include_str!("../presets/older/smoke-comic-1.toml"),
+    },
+    Preset {
+        name: "smoke-ink",
+        version: 1,
+        title: "Smoke in brush lines and solid blacks on white",
+        text: include_str!("../presets/older/smoke-ink-1.toml"),
+    },
+    Preset {
+        name: "stipple",
+        version: 1,
+        title: "Dots set by hand, dense in the dark, with fine outlines",
+        text: include_str!("../presets/older/stipple-1.toml"),
+    },
+    Preset {
+        name: "technical",
+        version: 1,
+        title: "Thin even lines on plain white parts, with every crease",
+        text: include_str!("../presets/older/technical-1.toml"),
+    },
+    Preset {
+        name: "toon",
+        version: 1,
+        title: "Three flat tones of the material's colour under dark brown lines",
+        text: include_str!("../presets/older/toon-1.toml"),
+    },
+];
 
 /// Every preset in its newest version, those for everyday use first.
 pub fn presets() -> &'static [Preset] {
@@ -252,7 +392,7 @@ pub fn find(name: &str) -> Result<&'static Preset, StyleError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Style, WidthSource};
+    use crate::{OutlineMethod, Style, WidthSource};
 
     #[test]
     fn every_version_up_to_the_newest_is_there() {
@@ -280,6 +420,22 @@ mod tests {
                 );
             }
         }
+    }
+
+    #[test]
+    fn versions_from_before_strokes_have_none() {
+        for older in OLDER {
+            let style = Style::preset(&format!("{}@{}", older.name, older.version));
+            let style = style.expect("a preset");
+            assert_eq!(style.line.method, OutlineMethod::Shape, "{}", older.name);
+        }
+        let newest = PRESETS.iter().map(|preset| Style::preset(preset.name));
+        let methods: Vec<OutlineMethod> = newest
+            .map(|style| style.expect("a preset").line.method)
+            .collect();
+        assert!(!methods.contains(&OutlineMethod::Shape));
+        let of_strokes = methods.iter().filter(|m| **m == OutlineMethod::Strokes);
+        assert_eq!(of_strokes.count(), OLDER.len());
     }
 
     #[test]

@@ -41,7 +41,7 @@ pub struct RuleLine {
     /// Whether the part has lines at all. Off suits eyes, glass and ground planes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub on: Option<bool>,
-    /// How the part's outline is drawn: `shape`, `hull`, `angle`, `curves`, `potrace` or `none`.
+    /// How the part's outline is drawn: `strokes`, `shape`, `hull`, `angle`, `potrace` or `none`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub method: Option<OutlineMethod>,
     /// Colour of the part's lines.

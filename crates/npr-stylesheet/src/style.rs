@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::overlay::Over;
 use crate::{
     Antialias, Background, BackgroundMethod, Blend, Detect, Highlight, IdMap, Ink, Lettering,
-    Light, Line, LineSource, Motion, Parents, Rule, Shade, SmokeStyle,
+    Light, Line, LineSource, Motion, OutlineMethod, Parents, Rule, Shade, SmokeStyle,
 };
 
 /// What a picture should look like.
@@ -89,6 +89,20 @@ impl Style {
     /// Whether any part may have its lines drawn as curves, which takes a line model of the scene.
     pub fn has_curves(&self) -> bool {
         self.curve_sources().next().is_some()
+    }
+
+    /// The same style with lines of method `strokes` drawn by `shape`, which needs no line model; `None` where there are
+    /// no such lines.
+    pub fn with_shapes_for_strokes(&self) -> Option<Self> {
+        let mut style = self.clone();
+        let of_rules = style.rule.iter_mut().flat_map(|rule| &mut rule.line.method);
+        let mut has_strokes = false;
+        for method in of_rules.chain([&mut style.line.method]) {
+            if *method == OutlineMethod::Strokes {
+                (*method, has_strokes) = (OutlineMethod::Shape, true);
+            }
+        }
+        has_strokes.then_some(style)
     }
 
     /// The line sources of the parts whose lines may be drawn as curves, each once.

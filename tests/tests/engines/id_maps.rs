@@ -24,7 +24,7 @@ const METHODS: [&str; 9] = [
     "hull",
     "filter+hull",
     "angle",
-    "curves",
+    "strokes",
     "potrace",
 ];
 
@@ -59,7 +59,7 @@ fn methods_and_lines_themselves_are_chosen_by_id() {
         ("line.on = false", [true, false]),
         ("line.method = 'none'", [true, false]),
         ("line.method = 'hull'", [true, true]),
-        ("line.method = 'curves'", [true, true]),
+        ("line.method = 'strokes'", [true, true]),
     ] {
         let style = with_map("shape", "", &format!("[[rule]]\nmatch.id = '#00f'\n{rule}"));
         let scene = cut(scene("Ball", icosphere(4)), &style, &halves());
@@ -160,7 +160,7 @@ fn regions_alone_move_no_line() {
             // Curves end where surfaces do, so that one that went round in a ring is smoothed a little otherwise.
             let [a, b] = [Ink::of(&whole), Ink::of(&pieces)];
             let strayed = a.without(&b.grown(1)).count() + b.without(&a.grown(1)).count();
-            let is_curve = ["curves", "potrace"].contains(&method);
+            let is_curve = ["strokes", "potrace"].contains(&method);
             if if is_curve { strayed > 4 } else { differ > 0 } {
                 failed.push(format!(
                     "{name}, {method}: {differ} pixels, {strayed} strayed"

@@ -82,7 +82,7 @@ fn a_frame_is_one_submission_and_one_wait() {
     for (setting, most) in [
         ("line.method=shape", 1),
         ("line.background.method=contrast", 1),
-        ("line.method=curves", 2),
+        ("line.method=strokes", 2),
     ] {
         let Some(traffic) = traffic_of(setting) else {
             return;

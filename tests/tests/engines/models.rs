@@ -1,9 +1,10 @@
 //! The same pictures from both engines: 99.8 % of pixels within 2 of 255, and no 8x8 block beyond 6 of 255.
 
 use npr_gpu::processor::Processor;
-use npr_render::{Model, Picture, RendererOptions};
+use npr_render::{Model, Picture, RendererOptions, Subject};
+use npr_scene::Scene;
 use npr_stylesheet::Style;
-use npr_tests::{Agreement, asset, device, draw_with, models, models_camera, samples};
+use npr_tests::{Agreement, asset, device, draw_of, draw_with, models, models_camera, samples};
 use std::path::PathBuf;
 
 /// Pictures of which single blocks may differ, and why; pixels must agree all the same. Which of them do depends on the
@@ -16,6 +17,19 @@ const TIES: [(&str, &str); 1] = [(
 /// Draws a model in a style on both engines and prints how far they agree; nothing without a device.
 fn agreement(what: &str, model: &Model, style: &Style, size: [u32; 2]) -> Option<Agreement> {
     agreement_with(what, model, style, &RendererOptions::new(size))
+}
+
+/// The same with the strokes that a style asks for.
+fn agreement_of(what: &str, scene: &Scene, style: &Style, size: [u32; 2]) -> Option<Agreement> {
+    let device = device()?;
+    let subject = Subject::new(scene, style).unwrap();
+    let camera = models_camera(&subject.model, size);
+    let options = RendererOptions::new(size);
+    let one = draw_of(&Processor, &subject, style, &camera, &options);
+    let two = draw_of(device, &subject, style, &camera, &options);
+    let agreement = Agreement::between(&one, &two, 2);
+    println!("{what:45} {agreement}");
+    Some(agreement)
 }
 
 fn agreement_with(
@@ -55,11 +69,10 @@ fn check_files(files: impl Iterator<Item = PathBuf>, presets: &[&str], most: usi
     let others = others.map(|(number, path)| (path, most * number, most));
     let pictures = samples.chain(others).flat_map(|(path, first, count)| {
         let scene = npr_scene::load(&path, &npr_scene::LoadOptions::default()).unwrap();
-        let model = Model::new(&scene).unwrap();
         let file = path.file_name().unwrap().to_string_lossy().into_owned();
         let of_style = |(name, style): &(String, Style)| {
             let what = format!("{file} {name}");
-            let agreement = agreement(&what, &model, style, [320, 180]);
+            let agreement = agreement_of(&what, &scene, style, [320, 180]);
             (what, agreement)
         };
         let styles = styles.iter().cycle().skip(first % styles.len());
@@ -109,15 +122,15 @@ fn figures_look_alike_in_the_looks_of_comics() {
 fn samples_look_alike_in_every_method() {
     let names = ["teapot_box_plane.glb", "still_life.glb"];
     let presets = ["technical", "okuya", "filter", "hull", "filter-hull"];
-    let methods = ["shape", "edges", "angle"];
+    let methods = ["strokes", "shape", "edges", "angle"];
     let with_method = methods.map(|method| (method, npr_tests::lines(method)));
     let pictures = names.into_iter().flat_map(|name| {
-        let model = Model::new(&asset(name)).unwrap();
+        let scene = asset(name);
         let preset = presets.map(|preset| (preset, Style::preset(preset).unwrap()));
         let styles = preset.into_iter().chain(with_method.clone());
         styles.map(move |(look, style)| {
             let what = format!("{name} {look}");
-            let agreement = agreement(&what, &model, &style, [480, 270]);
+            let agreement = agreement_of(&what, &scene, &style, [480, 270]);
             (what, agreement)
         })
     });

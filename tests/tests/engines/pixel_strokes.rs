@@ -238,8 +238,9 @@ fn frames_draw_these_lines_on_the_device_too() {
     let lines = LineModel::for_style(&scene, &style, &LineModelOptions::default(), None).unwrap();
     let camera = cameras(&lines)[0];
     let drawn = |engine: &dyn Engine| {
-        let renderer = Renderer::new(engine, &model, &style, &RendererOptions::new(SIZE)).unwrap();
-        let mut renderer = renderer.with_lines(LineRenderer::new(engine, &lines));
+        let of_model = (&model, LineRenderer::new(engine, &lines));
+        let options = RendererOptions::new(SIZE);
+        let mut renderer = Renderer::with_lines(engine, of_model, &style, &options).unwrap();
         renderer.draw(&camera).unwrap()
     };
     let [plain, found] = [drawn(&npr_gpu::processor::Processor), drawn(device)];

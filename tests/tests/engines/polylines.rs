@@ -120,16 +120,16 @@ fn the_published_path_takes_polylines_as_the_processor_does() {
 fn frames_of_both_engines_have_them() {
     let device = device();
     for (scene, method) in [
-        (spring(false), "curves"),
-        (spring(true), "curves"),
+        (spring(false), "strokes"),
+        (spring(true), "strokes"),
         (spring(true), "potrace"),
     ] {
         let (model, line_model) = (Model::new(&scene).unwrap(), model_of(&scene));
         let style = lines(method);
         let drawn = |engine| {
-            let renderer =
-                Renderer::new(engine, &model, &style, &RendererOptions::new(SIZE)).unwrap();
-            let mut renderer = renderer.with_lines(LineRenderer::new(engine, &line_model));
+            let of_model = (&model, LineRenderer::new(engine, &line_model));
+            let options = RendererOptions::new(SIZE);
+            let mut renderer = Renderer::with_lines(engine, of_model, &style, &options).unwrap();
             renderer.draw(&camera(&line_model)).unwrap()
         };
         let plain = drawn(&Processor);

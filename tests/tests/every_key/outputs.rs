@@ -27,7 +27,7 @@ pub const METHODS: [&str; 11] = [
     "edges",
     "rim",
     "angle",
-    "curves",
+    "strokes",
     "potrace",
     "none",
 ];

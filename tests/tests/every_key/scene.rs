@@ -72,10 +72,13 @@ impl Studio {
         let lines = style
             .has_curves()
             .then(|| self.line_model(cut.as_ref().unwrap_or(&self.scene), style));
-        let mut renderer = Renderer::new(&Processor, model, style, &options).unwrap();
-        if let Some(lines) = lines.as_ref().filter(|_| !is_smoke_alone) {
-            renderer = renderer.with_lines(LineRenderer::new(&Processor, lines));
-        }
+        let mut renderer = match lines.as_ref().filter(|_| !is_smoke_alone) {
+            Some(lines) => {
+                let of_model = (model, LineRenderer::new(&Processor, lines));
+                Renderer::with_lines(&Processor, of_model, style, &options).unwrap()
+            }
+            None => Renderer::new(&Processor, model, style, &options).unwrap(),
+        };
         match renderer.draw(&camera()) {
             Ok(frame) => (frame.rgba, frame.notices),
             Err(error) => (error.to_string().into_bytes(), Vec::new()),

@@ -325,7 +325,7 @@ fn each_part_has_the_outline_that_its_rule_says() {
         ("shape", "hull"),
         ("shape", "angle"),
         ("angle", "shape"),
-        ("angle", "curves"),
+        ("angle", "strokes"),
         ("angle", "potrace"),
     ] {
         let [both, as_style, as_rule] =

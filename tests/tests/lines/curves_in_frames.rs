@@ -21,11 +21,12 @@ fn drawn(style: &Style, with_lines: bool) -> Frame {
     let scene = scene();
     let model = Model::new(&scene).unwrap();
     let lines = LineModel::for_style(&scene, style, &LineModelOptions::default(), None).unwrap();
-    let mut renderer =
-        Renderer::new(&Processor, &model, style, &RendererOptions::new(SIZE)).unwrap();
-    if with_lines {
-        renderer = renderer.with_lines(LineRenderer::new(&Processor, &lines));
-    }
+    let options = RendererOptions::new(SIZE);
+    let of_model = (&model, LineRenderer::new(&Processor, &lines));
+    let mut renderer = match with_lines {
+        true => Renderer::with_lines(&Processor, of_model, style, &options).unwrap(),
+        false => Renderer::new(&Processor, &model, style, &options).unwrap(),
+    };
     renderer.draw(&front()).unwrap()
 }
 
@@ -40,7 +41,7 @@ fn sides(frame: &Frame) -> [usize; 2] {
 #[test]
 fn curves_ink_what_shapes_ink() {
     let [as_shape, as_curves] =
-        ["shape", "curves"].map(|method| Ink::of(&drawn(&lines(method), true)));
+        ["shape", "strokes"].map(|method| Ink::of(&drawn(&lines(method), true)));
     assert!(as_curves.count() > 500);
     let strayed = as_curves.without(&as_shape.grown(2)).count();
     let missing = as_shape.without(&as_curves.grown(2)).count();
@@ -53,7 +54,7 @@ fn curves_ink_what_shapes_ink() {
 #[test]
 fn a_rule_chooses_curves_for_a_part() {
     let mut style = lines("none");
-    let rule = "[[rule]]\nmatch.object = 'Right'\nline.method = 'curves'";
+    let rule = "[[rule]]\nmatch.object = 'Right'\nline.method = 'strokes'";
     style.rule = Style::from_toml(rule, &|_| Err(String::new()))
         .unwrap()
         .rule;
@@ -67,20 +68,18 @@ fn a_rule_chooses_curves_for_a_part() {
         "hidden lines are not drawn"
     );
     style.rule[0].line.method = None;
-    style.line.method = npr_stylesheet::OutlineMethod::Curves;
+    style.line.method = npr_stylesheet::OutlineMethod::Strokes;
     let [left, right] = sides(&drawn(&style, true));
     assert!(left > 200 && right > 200, "{left} {right}");
 }
 
 #[test]
-fn without_a_line_model_they_are_left_out_and_told_of() {
-    let frame = drawn(&lines("curves"), false);
-    assert_eq!(Ink::of(&frame).count(), 0);
-    assert_eq!(
-        frame.notices,
-        ["lines as curves are left out: no line model was given"]
-    );
-    assert!(drawn(&lines("shape"), false).notices.is_empty());
+fn without_a_line_model_shapes_are_drawn_in_their_place() {
+    let [strokes, shape] = ["strokes", "shape"].map(|method| drawn(&lines(method), false));
+    assert!(strokes.rgba == shape.rgba && Ink::of(&shape).count() > 500);
+    let told = ["lines of method strokes are drawn by method shape, for want of a line model"];
+    assert_eq!(strokes.notices, told);
+    assert!(shape.notices.is_empty());
 }
 
 /// The right ball's outline ends at that of the left one, twice; no other line ends.
@@ -91,7 +90,7 @@ fn lines_taper_at_free_ends_or_at_all() {
         unit: Unit::Px,
     };
     let tapered = |length: f32, ends: TaperEnds| {
-        let mut style = lines("curves");
+        let mut style = lines("strokes");
         style.line.width.base = px(8.0);
         let taper = &mut style.line.width.taper;
         (taper.start, taper.end, taper.ends) = (px(length), px(length), ends);
@@ -114,7 +113,7 @@ fn lines_taper_at_free_ends_or_at_all() {
 /// Strokes from pixels are drawn over surfaces as curves are, and cover about as much.
 #[test]
 fn strokes_from_pixels_are_drawn_as_curves_are() {
-    let [curves, potrace] = ["curves", "potrace"].map(|method| drawn(&lines(method), true));
+    let [curves, potrace] = ["strokes", "potrace"].map(|method| drawn(&lines(method), true));
     let [of_curves, of_pixels] = [&curves, &potrace].map(|frame| Ink::of(frame).count());
     assert!(
         of_pixels > of_curves / 2 && of_pixels < 2 * of_curves,
@@ -127,6 +126,6 @@ fn strokes_from_pixels_are_drawn_as_curves_are() {
         0,
         "its constants are those of the style"
     );
-    let reported = ["lines as curves are left out: no line model was given"];
+    let reported = ["lines of method potrace are left out: no line model was given"];
     assert_eq!(drawn(&lines("potrace"), false).notices, reported);
 }

@@ -194,7 +194,8 @@ fn pictures_for_tones_are_found_and_their_faults_named() {
 #[test]
 fn thin_lines_over_a_coarse_mask_are_warned_of_once() {
     let place = Workplace::with_scene();
-    let outcome = place.render("scene.obj", &["--set", "detect.scale=8"]);
+    let coarse = ["--style", "toon@1", "--set", "detect.scale=8"];
+    let outcome = place.render("scene.obj", &coarse);
     assert_eq!(outcome.code, Some(0));
     assert!(
         outcome.stderr.starts_with("npr: warning: lines "),
@@ -203,7 +204,7 @@ fn thin_lines_over_a_coarse_mask_are_warned_of_once() {
     );
     assert_eq!(outcome.stderr.lines().count(), 1);
     place
-        .render("scene.obj", &["--set", "detect.scale=8", "--quiet"])
+        .render("scene.obj", &[&coarse[..], &["--quiet"]].concat())
         .assert_silent_success();
 }
 

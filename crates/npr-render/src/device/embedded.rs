@@ -6,10 +6,12 @@ use crate::look::StyledModel;
 use crate::model::Model;
 use crate::options::{RendererOptions, check_size};
 use crate::placement::Bounds;
+use crate::renderer::NO_STROKES;
 use crate::smoke::Smoke;
 use glam::{DMat4, Mat4, Vec3};
 use npr_core::budget::Budget;
 use npr_core::camera::{Camera, box_corners};
+use npr_core::line_source::LineSource;
 use npr_core::window::View;
 use npr_gpu::device::{Device, DeviceSession, Inlay, Target, TargetFormat, wgpu};
 use npr_gpu::graph::ResourceId;
@@ -36,8 +38,8 @@ pub struct HostView {
 /// and hiding what is drawn later behind it. Nothing is submitted, waited for or read back. The background of the style
 /// is left out: the host's picture is the background.
 ///
-/// A frame needs no processor between its passes. Styles that do are refused: lines with method `curves` or
-/// `potrace`, speed lines, a blend of two looks, words; and frames of more than 4 million pixels, which are drawn in
+/// A frame needs no processor between its passes. Styles that do are refused: lines of method `potrace`,
+/// speed lines, a blend of two looks, words; and frames of more than 4 million pixels, which are drawn in
 /// tiles.
 pub struct EmbeddedRenderer {
     device: Device,
@@ -217,11 +219,15 @@ fn plan(
 ) -> Result<(FramePlan, [ResourceId; 2]), RenderError> {
     check_size(options.size)?;
     check_recorded(style)?;
+    let shapes = style.with_shapes_for_strokes();
     let style = Style {
         background: Background::Transparent,
-        ..style.clone()
+        ..shapes.as_ref().unwrap_or(style).clone()
     };
-    let styled = StyledModel::new(model, &style, options)?;
+    let mut styled = StyledModel::new(model, &style, options)?;
+    if shapes.is_some() {
+        styled.inked.notices.push(NO_STROKES.to_owned());
+    }
     let (plan, picture) = FramePlan::with_depths(model, &style, options, styled);
     if plan.tiles().kept != options.size {
         let [width, height] = options.size;
@@ -236,8 +242,8 @@ fn plan(
 fn check_recorded(style: &Style) -> Result<(), RenderError> {
     let reasons = [
         (
-            style.has_curves(),
-            "line.method 'curves' or 'potrace', which counts lines on the processor,",
+            style.curve_sources().any(LineSource::is_of_pixels),
+            "line.method 'potrace', which counts lines on the processor,",
         ),
         (
             !style.trails().is_empty(),

@@ -89,7 +89,7 @@ impl LineFeatures {
         };
         match method {
             OutlineMethod::Off | OutlineMethod::Angle => none,
-            OutlineMethod::Curves | OutlineMethod::Potrace => Self {
+            OutlineMethod::Strokes | OutlineMethod::Potrace => Self {
                 strokes: true,
                 layers: Compose::RIBBONS,
                 ..none

@@ -1,4 +1,4 @@
-//! Strokes as the lines of a frame: those of parts whose method is `curves` or `potrace`, found before the frame is drawn
+//! Strokes as the lines of a frame: those of parts whose method is `strokes` or `potrace`, found before the frame is drawn
 //! and inked by a pass of it.
 
 use crate::error::RenderError;
@@ -50,7 +50,7 @@ pub(crate) fn find(
         return Ok(found);
     }
     let Some(lines) = lines else {
-        let notice = "lines as curves are left out: no line model was given";
+        let notice = "lines of method potrace are left out: no line model was given";
         found.notices.push(notice.to_owned());
         return Ok(found);
     };

@@ -82,6 +82,10 @@ impl<'a> OnDevice<'a> {
 
 impl Finder for OnDevice<'_> {
     fn contours(&mut self, eye: &Eye, meanwhile: &dyn Fn()) -> Result<EdgeContours, RenderError> {
+        // A scene without surfaces, smoke alone, asks nothing of the device.
+        if self.shape.faces.is_empty() {
+            return OnProcessor(self.shape).contours(eye, meanwhile);
+        }
         let resident = match self.contours.take() {
             Some(resident) => resident,
             None => ResidentShape::new(self.engine, self.shape)?,

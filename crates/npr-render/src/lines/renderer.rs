@@ -50,6 +50,11 @@ impl<'a> LineRenderer<'a> {
         }
     }
 
+    /// Another one of the same model on the same engine.
+    pub(crate) fn another(&self) -> Self {
+        Self::new(self.engine, self.model)
+    }
+
     /// The lines that a camera sees; see [`LineModel::draw`].
     ///
     /// # Errors

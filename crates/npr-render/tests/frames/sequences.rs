@@ -99,10 +99,10 @@ const LOOKS: [&[&str]; 9] = [
         "line.background.method=contrast",
         "line.background.start=rim",
     ],
-    &["line.method=curves"],
-    &["line.method=curves", "line.background.method=contrast"],
+    &["line.method=strokes"],
+    &["line.method=strokes", "line.background.method=contrast"],
     &["blend.with=technical", "blend.amount=0.5"],
-    &["blend.with=ink", "blend.amount=0.4", "line.method=curves"],
+    &["blend.with=ink", "blend.amount=0.4", "line.method=strokes"],
     &["rule.0.motion.trail=[-0.9, 0.3, 0.0]"],
     // Strokes that turn with the light are written anew for every camera.
     &["ink.tone=ink+hatch", "ink.follow=light"],
@@ -115,8 +115,8 @@ fn check_sequence(look: &[&str], tile_pixels: u32, shots: &[Shot]) {
     let lines = LineModel::new(&scene, &LineModelOptions::default()).unwrap();
     for engine in engines() {
         let renderer = || {
-            let renderer = Renderer::new(engine, &model, &style, &options).unwrap();
-            renderer.with_lines(LineRenderer::new(engine, &lines))
+            let lines = LineRenderer::new(engine, &lines);
+            Renderer::with_lines(engine, (&model, lines), &style, &options).unwrap()
         };
         let wanted = one_by_one(&mut renderer(), shots);
         let mut sequence = renderer();

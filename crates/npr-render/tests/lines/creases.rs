@@ -66,8 +66,9 @@ fn ink_inside(scene: &Scene, style: &Style) -> usize {
     let lines = LineModel::for_style(scene, style, &LineModelOptions::default(), None);
     let lines = lines.expect("small");
     let options = RendererOptions::new(SIZE);
-    let renderer = Renderer::new(&Processor, &model, style, &options).expect("prepared");
-    let mut renderer = renderer.with_lines(LineRenderer::new(&Processor, &lines));
+    let of_model = (&model, LineRenderer::new(&Processor, &lines));
+    let mut renderer =
+        Renderer::with_lines(&Processor, of_model, style, &options).expect("prepared");
     let frame = renderer.draw(&camera_at([6.0, 0.4, 0.0])).expect("drawn");
     let [width, height] = SIZE.map(|side| side as usize);
     let middle = (0..width * height)
@@ -106,7 +107,7 @@ fn smooth_shading_has_no_folds_by_any_method() {
             "{method:?}: {by_faces} and {by_normals} px"
         );
     }
-    for method in ["shape", "curves", "potrace", "filter"] {
+    for method in ["shape", "strokes", "potrace", "filter"] {
         assert_eq!(
             ink_inside(&pillar, &style(method, "normals")),
             0,
@@ -127,7 +128,7 @@ fn without_normals_every_fold_over_the_angle_is_drawn() {
             drawn(&pillar, &style("shape", from), LineSource::Edges) > 60.0,
             "{from}"
         );
-        for method in ["shape", "curves"] {
+        for method in ["shape", "strokes"] {
             assert!(
                 ink_inside(&pillar, &style(method, from)) > 20,
                 "{method} {from}"

@@ -268,7 +268,7 @@ fn frames_draw_them_as_curves_and_tell_where_they_cannot() {
         .for_each(|part| part.segments.clear());
     let bare_lines = model_of(&bare);
     for (method, is_drawn) in [
-        ("curves", true),
+        ("strokes", true),
         ("potrace", true),
         ("shape", false),
         ("hull", false),
@@ -278,9 +278,10 @@ fn frames_draw_them_as_curves_and_tell_where_they_cannot() {
             .set(&format!("line.method={method}"))
             .expect("a method");
         let drawn = |lines| {
-            let renderer = Renderer::new(&Processor, &model, &style, &RendererOptions::new(SIZE))
-                .expect("small");
-            let mut renderer = renderer.with_lines(LineRenderer::new(&Processor, lines));
+            let of_model = (&model, LineRenderer::new(&Processor, lines));
+            let options = RendererOptions::new(SIZE);
+            let mut renderer =
+                Renderer::with_lines(&Processor, of_model, &style, &options).expect("small");
             renderer.draw(&camera_at(EYE)).expect("drawn")
         };
         let (with, without) = (drawn(&lines), drawn(&bare_lines));
@@ -290,7 +291,7 @@ fn frames_draw_them_as_curves_and_tell_where_they_cannot() {
         let reported = with
             .notices
             .iter()
-            .any(|notice| notice.contains("only line.method curves"));
+            .any(|notice| notice.contains("only line.method strokes"));
         assert_eq!(reported, !is_drawn, "{method}: {:?}", with.notices);
     }
 }

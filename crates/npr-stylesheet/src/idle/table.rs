@@ -2,7 +2,7 @@
 
 use super::case::{Case, LineForm};
 use crate::OutlineMethod::{
-    Angle, Curves, Edges, Filter, FilterHull, Hull, Okuya, Potrace, Rim, Shape,
+    Angle, Edges, Filter, FilterHull, Hull, Okuya, Potrace, Rim, Shape, Strokes,
 };
 use crate::Pattern;
 use crate::{
@@ -283,13 +283,13 @@ pub(super) const ENTRIES: &[Entry] = &[
         ],
         |c| {
             !c.is_drawn_by(&[
-                Shape, Okuya, Filter, Hull, FilterHull, Edges, Rim, Angle, Curves, Potrace,
+                Shape, Okuya, Filter, Hull, FilterHull, Edges, Rim, Angle, Strokes, Potrace,
             ])
         },
     ),
     of_methods(&["line.opacity"], |c| {
         !c.is_drawn_by(&[
-            Shape, Okuya, Filter, FilterHull, Edges, Rim, Curves, Potrace,
+            Shape, Okuya, Filter, FilterHull, Edges, Rim, Strokes, Potrace,
         ])
     }),
     of_methods(
@@ -302,51 +302,51 @@ pub(super) const ENTRIES: &[Entry] = &[
         ],
         |c| {
             !c.is_drawn_by(&[
-                Shape, Okuya, Filter, Hull, FilterHull, Edges, Angle, Curves, Potrace,
+                Shape, Okuya, Filter, Hull, FilterHull, Edges, Angle, Strokes, Potrace,
             ])
         },
     ),
     of_methods(&["line.paint.kinds.boundary"], |c| {
-        !c.is_drawn_by(&[Shape, Edges, Curves, Potrace])
+        !c.is_drawn_by(&[Shape, Edges, Strokes, Potrace])
     }),
     of_methods(&["line.paint.kinds.crease"], |c| {
-        !c.is_drawn_by(&[Shape, Filter, FilterHull, Curves, Potrace])
+        !c.is_drawn_by(&[Shape, Filter, FilterHull, Strokes, Potrace])
     }),
     of_methods(&["line.paint.kinds.material"], |c| {
-        !c.is_drawn_by(&[Shape, Filter, FilterHull, Curves])
+        !c.is_drawn_by(&[Shape, Filter, FilterHull, Strokes])
     }),
     of_methods(&["line.background.scope"], |c| {
         !c.is_drawn_by(&[
-            Shape, Okuya, Filter, Hull, FilterHull, Edges, Angle, Curves, Potrace,
+            Shape, Okuya, Filter, Hull, FilterHull, Edges, Angle, Strokes, Potrace,
         ])
     }),
     of_methods(&["line.paint.kinds.intersection"], |c| {
-        !c.is_drawn_by(&[Shape, Filter, FilterHull, Curves])
+        !c.is_drawn_by(&[Shape, Filter, FilterHull, Strokes])
     }),
     of_methods(&["line.crease_angle_deg", "line.crease_from"], |c| {
-        !c.is_drawn_by(&[Shape, Okuya, Filter, FilterHull, Curves, Potrace])
+        !c.is_drawn_by(&[Shape, Okuya, Filter, FilterHull, Strokes, Potrace])
     }),
     of_methods(&["line.split_angle_deg"], |c| {
-        !c.is_drawn_by(&[Curves, Potrace])
+        !c.is_drawn_by(&[Strokes, Potrace])
     }),
     entry(
         &["line.split_angle_deg"],
-        |c| c.is_frame() && !c.is_drawn_by(&[Curves]) && !c.shows_cuts(),
+        |c| c.is_frame() && !c.is_drawn_by(&[Strokes]) && !c.shows_cuts(),
         "lines of method potrace show where they are cut only with line.width.short or with tapers at all ends",
     ),
     of_methods(&["line.angle_threshold_deg", "line.angle_softness"], |c| {
         !c.is_drawn_by(&[Angle])
     }),
     of_methods(&["line.kinds.intersection"], |c| {
-        !c.is_drawn_by(&[Shape, Filter, FilterHull, Curves])
+        !c.is_drawn_by(&[Shape, Filter, FilterHull, Strokes])
     }),
     of_methods(&["line.kinds"], |c| {
-        !c.is_drawn_by(&[Shape, Curves, Potrace])
+        !c.is_drawn_by(&[Shape, Strokes, Potrace])
     }),
     of_methods(&["line.potrace"], |c| !c.is_drawn_by(&[Potrace])),
     of_methods(&["line.width.base", "line.width_factor"], |c| {
         !c.is_drawn_by(&[
-            Shape, Okuya, Hull, FilterHull, Edges, Angle, Curves, Potrace,
+            Shape, Okuya, Hull, FilterHull, Edges, Angle, Strokes, Potrace,
         ])
     }),
     of_methods(
@@ -359,10 +359,10 @@ pub(super) const ENTRIES: &[Entry] = &[
             "line.width.texture",
             "line.width.control_points",
         ],
-        |c| !c.is_drawn_by(&[Shape, Okuya, Hull, FilterHull, Edges, Curves, Potrace]),
+        |c| !c.is_drawn_by(&[Shape, Okuya, Hull, FilterHull, Edges, Strokes, Potrace]),
     ),
     of_methods(&["line.width.short", "line.width.taper"], |c| {
-        !c.is_drawn_by(&[Curves, Potrace])
+        !c.is_drawn_by(&[Strokes, Potrace])
     }),
     of_methods(&["detect.scale"], |c| {
         !c.is_drawn_by(&[Shape, Okuya, Filter, FilterHull, Edges])

@@ -92,15 +92,15 @@ fn an_override_is_stated_and_what_it_replaces_is_not() {
 
 #[test]
 fn methods_of_parts_count() {
-    let of_all = stated("line.method = 'curves'\ndetect.scale = 2");
+    let of_all = stated("line.method = 'strokes'\ndetect.scale = 2");
     assert_eq!(of_all.notices(&FRAME).len(), 1);
     let of_one =
-        stated("line.method = 'curves'\ndetect.scale = 2\n[[rule]]\nline.method = 'shape'");
+        stated("line.method = 'strokes'\ndetect.scale = 2\n[[rule]]\nline.method = 'shape'");
     assert!(of_one.notices(&FRAME).is_empty());
-    let of_rule = stated("[[rule]]\nline.method = 'curves'\nline.angle_threshold_deg = 20");
+    let of_rule = stated("[[rule]]\nline.method = 'strokes'\nline.angle_threshold_deg = 20");
     let reported = of_rule.notices(&FRAME);
     let wanted =
-        "'rule.0.line.angle_threshold_deg' is ignored: lines of method curves do not use it";
+        "'rule.0.line.angle_threshold_deg' is ignored: lines of method strokes do not use it";
     assert_eq!(reported, [wanted]);
 }
 

@@ -41,6 +41,7 @@ fn the_defaults_are_the_preset_toon() {
     assert_eq!(
         Style {
             title: toon.title.clone(),
+            version: toon.version,
             ..Style::default()
         },
         toon
@@ -209,7 +210,7 @@ fn slips_are_named_with_place_and_cure() {
             "extends = 'inc'",
             "cannot read parent style 'inc': no file 'inc'",
         ),
-        ("extends = 'ink@9'", "preset 'ink' has no version 9, only 1"),
+        ("extends = 'ink@9'", "preset 'ink' has no version 9, only 2"),
     ] {
         assert_eq!(message(text), expected);
     }

@@ -109,7 +109,7 @@ fn no_line_changes_where_the_background_is_unlike() {
     let ball = scene_of(&[Object::new("Ball", icosphere(4))]);
     for (name, engine) in engines() {
         for method in [
-            "shape", "okuya", "filter", "edges", "hull", "angle", "rim", "curves",
+            "shape", "okuya", "filter", "edges", "hull", "angle", "rim", "strokes",
         ] {
             let published = style(method, "4", "#6e6e6e", "#000000");
             let off = styled(published.clone(), &["line.background.method=off"], "");

@@ -92,10 +92,13 @@ pub fn frames(
         .has_curves()
         .then(|| LineModel::for_style(scene, style, &LineModelOptions::default(), None).unwrap());
     let draw = |engine: &dyn Engine| {
-        let mut renderer = Renderer::new(engine, &model, style, options).unwrap();
-        if let Some(lines) = &lines {
-            renderer = renderer.with_lines(LineRenderer::new(engine, lines));
-        }
+        let mut renderer = match &lines {
+            Some(lines) => {
+                let of_model = (&model, LineRenderer::new(engine, lines));
+                Renderer::with_lines(engine, of_model, style, options).unwrap()
+            }
+            None => Renderer::new(engine, &model, style, options).unwrap(),
+        };
         renderer.draw(camera).unwrap()
     };
     let mut frames = vec![draw(&Processor)];

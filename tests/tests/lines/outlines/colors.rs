@@ -6,7 +6,7 @@ use npr_render::Frame;
 use npr_tests::{Object, boxed, draw_from, lines, placed};
 use std::collections::BTreeMap;
 
-/// Methods that draw a box, but for `curves` and `potrace`, whose strokes are tested by themselves, and `rim`, which
+/// Methods that draw a box, but for `strokes` and `potrace`, whose strokes are tested by themselves, and `rim`, which
 /// takes its colours from the surface.
 const METHODS: [&str; 6] = ["shape", "okuya", "edges", "filter", "hull", "filter+hull"];
 

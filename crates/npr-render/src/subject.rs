@@ -1,0 +1,88 @@
+//! A scene prepared for frames in a style.
+
+use crate::error::RenderError;
+use crate::lines::{LineModel, LineModelOptions, LineRenderer};
+use crate::model::Model;
+use crate::options::RendererOptions;
+use crate::renderer::Renderer;
+use npr_core::line_source::LineSource;
+use npr_gpu::engine::Engine;
+use npr_scene::Scene;
+use npr_stylesheet::Style;
+use std::path::Path;
+
+/// A scene prepared for frames: its surfaces, and its lines where a style draws strokes.
+///
+/// ```
+/// # use npr_gpu::processor::Processor;
+/// # use npr_render::{RendererOptions, Subject};
+/// # let (scene, style) = (npr_scene::Scene::default(), npr_stylesheet::Style::default());
+/// let subject = Subject::new(&scene, &style)?;
+/// let mut renderer = subject.renderer(&Processor, &style, &RendererOptions::new([64, 36]))?;
+/// let frame = renderer.draw(&subject.model.framing(16.0 / 9.0, 0.7))?;
+/// # assert!(frame.notices.is_empty());
+/// # Ok::<(), npr_render::RenderError>(())
+/// ```
+#[derive(Debug)]
+pub struct Subject {
+    /// Its surfaces.
+    pub model: Model,
+    /// Its lines, which strokes are made of.
+    pub lines: Option<LineModel>,
+}
+
+impl Subject {
+    /// Prepares a scene for a style.
+    ///
+    /// # Errors
+    ///
+    /// As [`Model::new`] and [`LineModel::for_style`].
+    pub fn new(scene: &Scene, style: &Style) -> Result<Self, RenderError> {
+        let model = Model::new(scene)?;
+        let lines = Self::lines(scene, style, &LineModelOptions::default(), None)?;
+        Ok(Self { model, lines })
+    }
+
+    /// The lines of a scene, where a style draws strokes; `folder` is that of [`LineModel::for_style`].
+    ///
+    /// There are none where the memory limit is too low for them, but for a style with lines of method `potrace`: frames
+    /// draw those of `strokes` by `shape` then.
+    ///
+    /// # Errors
+    ///
+    /// As [`LineModel::for_style`].
+    pub fn lines(
+        scene: &Scene,
+        style: &Style,
+        options: &LineModelOptions,
+        folder: Option<&Path>,
+    ) -> Result<Option<LineModel>, RenderError> {
+        if !style.has_curves() {
+            return Ok(None);
+        }
+        match LineModel::for_style(scene, style, options, folder) {
+            Err(RenderError::Memory(_)) if !style.curve_sources().any(LineSource::is_of_pixels) => {
+                Ok(None)
+            }
+            lines => lines.map(Some),
+        }
+    }
+
+    /// A renderer of the scene, in a style and on an engine, which also finds its lines.
+    ///
+    /// # Errors
+    ///
+    /// As [`Renderer::new`].
+    pub fn renderer<'a>(
+        &'a self,
+        engine: &'a dyn Engine,
+        style: &Style,
+        options: &RendererOptions,
+    ) -> Result<Renderer<'a>, RenderError> {
+        let Some(lines) = &self.lines else {
+            return Renderer::new(engine, &self.model, style, options);
+        };
+        let of_scene = (&self.model, LineRenderer::new(engine, lines));
+        Renderer::with_lines(engine, of_scene, style, options)
+    }
+}
