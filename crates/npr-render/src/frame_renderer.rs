@@ -64,6 +64,8 @@ pub(crate) struct FramePlan {
     pub options: RendererOptions,
     pub needs: Needs,
     pub passes: Passes,
+    /// Most bytes that the graph may grow to.
+    pub graph_limit: u64,
 }
 
 /// The graph of a look: what its features share, and what each takes of it.
@@ -331,6 +333,7 @@ impl FramePlan {
             options: options.clone(),
             needs,
             passes,
+            graph_limit: options.memory_limit,
         };
         (plan, depths)
     }
@@ -457,6 +460,7 @@ impl<S: Session> FrameRenderer<S> {
             options,
             needs,
             passes,
+            ..
         } = &self.plan;
         let (size, dpi) = (options.size, options.dpi);
         let view = camera.view(size, bounds);
@@ -515,11 +519,13 @@ impl<S: Session> FrameRenderer<S> {
         }
         self.turn_strokes(model, &light::strongest(&lights), camera)?;
         let FramePlan {
-            options, passes, ..
+            passes,
+            graph_limit,
+            ..
         } = &mut self.plan;
         if let Some(inked) = &passes.strokes {
             let (graph, seen) = (&mut passes.frame.graph, (&view, strokes));
-            inked.upload_view(&mut self.session, graph, seen, options.memory_limit)?;
+            inked.upload_view(&mut self.session, graph, seen, *graph_limit)?;
         }
         self.before = Some(view);
         Ok(view)

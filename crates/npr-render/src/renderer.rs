@@ -81,7 +81,7 @@ impl<'a> RendererPlan<'a> {
         notices.extend_from_slice(lettering.notices());
 
         // Plan the frame.
-        let frames = FramePlan::new(model, style, options, styled);
+        let mut frames = FramePlan::new(model, style, options, styled);
         let mut budget = Budget::new(options.memory_limit);
         let rows = match options.in_bands && draws_bands(style, frames.tiles()) {
             true => frames.tiles().kept[1].min(options.size[1]),
@@ -112,6 +112,8 @@ impl<'a> RendererPlan<'a> {
             planned_bytes += other.planned_bytes;
             blended = Some((Box::new(other), blending));
         }
+        let beside = planned_bytes - frames.graph().planned_bytes();
+        frames.graph_limit = options.memory_limit - beside;
         Ok(Self {
             model,
             frames,

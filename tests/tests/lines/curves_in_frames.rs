@@ -1,14 +1,17 @@
 //! Parts whose lines are drawn as curves, in frames.
 
+use npr_core::camera::Camera;
+use npr_gpu::engine::Engine;
 use npr_gpu::processor::Processor;
 use npr_mesh::testing::icosphere;
 use npr_render::{
-    Frame, LineModel, LineModelOptions, LineRenderer, Model, Renderer, RendererOptions,
+    Frame, LineModel, LineModelOptions, LineRenderer, Model, RenderError, Renderer,
+    RendererOptions, Subject,
 };
 use npr_scene::Scene;
 use npr_stylesheet::{Length, Style, TaperEnds, Unit};
 use npr_tests::comic::{SIZE, front};
-use npr_tests::{Ink, Object, lines, placed, scene_of};
+use npr_tests::{Ink, Object, device, lines, placed, scene_of};
 
 fn scene() -> Scene {
     scene_of(&[
@@ -108,6 +111,110 @@ fn lines_taper_at_free_ends_or_at_all() {
         dx.abs() < 36.0 && (10.0..70.0).contains(&dy.abs())
     };
     assert!(lost.iter().all(is_near_end), "{lost:?}");
+}
+
+/// A frame in which thousands of edges lie apart.
+const LARGE: [u32; 2] = [1280, 960];
+
+/// A style in which every edge is a line.
+fn every_edge() -> Style {
+    let mut style = lines("strokes");
+    for setting in ["line.crease_from=faces", "line.crease_angle_deg=0.1"] {
+        style.set(setting).unwrap();
+    }
+    style
+}
+
+#[test]
+fn there_is_room_for_any_number_of_strokes() {
+    let (scene, style) = (scene(), every_edge());
+    let subject = Subject::new(&scene, &style).unwrap();
+    let options = RendererOptions::new(LARGE);
+    let away = Camera {
+        target: [0.0, 0.0, 90.0],
+        ..front()
+    };
+    let processor: &dyn Engine = &Processor;
+    for engine in device()
+        .map(|device| device as _)
+        .into_iter()
+        .chain([processor])
+    {
+        let renderer = || subject.renderer(engine, &style, &options).unwrap();
+        let fresh = renderer().draw(&front()).unwrap();
+        assert!(
+            Ink::of(&fresh).count() > 50_000,
+            "{}",
+            Ink::of(&fresh).count()
+        );
+
+        // Few strokes, then more than there was room for, then few again.
+        let mut kept = renderer();
+        let first = kept.draw(&away).unwrap();
+        assert!(kept.draw(&front()).unwrap().rgba == fresh.rgba);
+        assert!(kept.draw(&away).unwrap().rgba == first.rgba);
+    }
+}
+
+/// Tiles and bands have the strokes of the whole frame, across their borders.
+#[test]
+fn tiles_and_bands_have_the_strokes_of_the_whole() {
+    let (scene, style) = (scene(), lines("strokes"));
+    let subject = Subject::new(&scene, &style).unwrap();
+    let processor: &dyn Engine = &Processor;
+    for engine in device()
+        .map(|device| device as _)
+        .into_iter()
+        .chain([processor])
+    {
+        let renderer = |tile_pixels: u32| {
+            let options = RendererOptions {
+                tile_pixels,
+                ..RendererOptions::new(SIZE)
+            };
+            subject.renderer(engine, &style, &options).unwrap()
+        };
+        let whole = renderer(1 << 20).draw(&front()).unwrap();
+        let mut tiled = renderer(9_000);
+        assert!(tiled.draw(&front()).unwrap().rgba == whole.rgba);
+        let (mut rows, mut count) = (Vec::new(), 0);
+        let mut take = |band: &Frame| {
+            rows.extend_from_slice(&band.rgba);
+            count += 1;
+            true
+        };
+        tiled.draw_bands(&front(), &mut take).unwrap();
+        assert!(rows == whole.rgba && count > 2, "{count} bands");
+    }
+}
+
+#[test]
+fn strokes_beyond_the_memory_limit_are_refused() {
+    let (scene, style) = (scene(), every_edge());
+    let subject = Subject::new(&scene, &style).unwrap();
+    let limited = |memory_limit: u64| {
+        let options = RendererOptions {
+            memory_limit,
+            ..RendererOptions::new(LARGE)
+        };
+        subject.renderer(&Processor, &style, &options)
+    };
+    // Find the least limit that the frame fits into as long as it has few strokes.
+    let (mut low, mut high) = (0, 1 << 30);
+    while low + 1 < high {
+        let middle = (low + high) / 2;
+        match limited(middle) {
+            Ok(_) => high = middle,
+            Err(_) => low = middle,
+        }
+    }
+    let mut renderer = limited(high).unwrap();
+    let refused = renderer.draw(&front());
+    assert!(
+        matches!(refused, Err(RenderError::Memory(_))),
+        "{:?}",
+        refused.map(|_| ())
+    );
 }
 
 /// Strokes from pixels are drawn over surfaces as curves are, and cover about as much.

@@ -57,6 +57,7 @@ impl<S: Session> FrameRenderer<S> {
             options,
             needs,
             passes,
+            ..
         } = &mut self.plan;
         let lights = Needs::relit(model, style, options);
         let are_alike = lights.is_one_sun() == needs.lights.is_one_sun()

@@ -93,14 +93,13 @@ impl StrokePasses {
 
     /// Hands over the strokes that a camera sees.
     ///
-    /// Where there is less room than they take, the graph and its session get more, up to `memory_limit` for the whole
-    /// graph.
+    /// Where there is less room than they take, the graph and its session get more, up to `graph_limit` bytes in all.
     pub fn upload_view(
         &self,
         session: &mut dyn Session,
         graph: &mut Graph,
         (view, drawings): (&View, &[Drawing]),
-        memory_limit: u64,
+        graph_limit: u64,
     ) -> Result<(), RenderError> {
         let nearness = |depth: f64| view.nearness(depth as f32);
         let points: Vec<InkPoint> = drawings
@@ -114,7 +113,7 @@ impl StrokePasses {
             let mut grown = graph.clone();
             grown.grow(self.points, count);
             let planned = grown.planned_bytes() as usize;
-            Budget::new(memory_limit).take("the strokes of the frame", planned, 1)?;
+            Budget::new(graph_limit).take("the strokes of the frame", planned, 1)?;
             session.grow(self.points, count)?;
             *graph = grown;
         }
