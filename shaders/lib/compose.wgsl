@@ -26,6 +26,7 @@ const COMPOSE_OVERLAY: u32 = 2u;
 const COMPOSE_BEAMS: u32 = 4u;
 const COMPOSE_SMOKE: u32 = 8u;
 const COMPOSE_SMOKE_PEN: u32 = 16u;
+const COMPOSE_LINES_IN_SRGB: u32 = 32u;
 const COMPOSE_BACKDROP: u32 = 64u;
 const COMPOSE_BARE: u32 = 128u;
 

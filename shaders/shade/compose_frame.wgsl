@@ -233,6 +233,13 @@ fn over(top: vec4<f32>, below: vec4<f32>) -> vec4<f32> {
     return vec4<f32>(top.rgb * top.a, top.a) + below * (1.0 - top.a);
 }
 
+// A layer laid over another, both with straight alpha.
+fn over_straight(top: vec4<f32>, below: vec4<f32>) -> vec4<f32> {
+    let left = below.a * (1.0 - top.a);
+    let alpha = top.a + left;
+    return vec4<f32>((top.rgb * top.a + below.rgb * left) / max(alpha, 1e-6), alpha);
+}
+
 // What a pixel shows as sRGB bytes with straight alpha: surfaces, smoke over them, the background behind, beams, lines.
 fn composed(pixel: vec2<u32>, element: u32) -> u32 {
     let frame_px = frame_at(window, pixel);
@@ -243,6 +250,9 @@ fn composed(pixel: vec2<u32>, element: u32) -> u32 {
     if surface.a < 1.0 { color += background(frame_px) * (1.0 - surface.a); }
     let beams = add_beams(pixel, smoke_layer, frame_px, color);
     color = beams.color;
+    let in_srgb = (compose.flags & COMPOSE_LINES_IN_SRGB) != 0u;
+    var shown: vec4<f32>;
+    if in_srgb { shown = vec4<f32>(srgb_of(color.rgb / max(color.a, 1e-6)), color.a); }
     var texel = ribbon_texel(pixel);
     for (var layer = 0u; layer < 2u; layer++) {
         if layer == 1u { texel = overlay_texel(element); }
@@ -250,9 +260,15 @@ fn composed(pixel: vec2<u32>, element: u32) -> u32 {
             let line = linear_texel(texel);
             let faded = line_fade(smoke_layer, pixel, frame_px);
             let alpha = line.a * (1.0 - beams.covered) * (1.0 - faded);
-            color = over(vec4<f32>(contrasted(line.rgb, frame_px), alpha), color);
+            let light = contrasted(line.rgb, frame_px);
+            if in_srgb {
+                shown = over_straight(vec4<f32>(srgb_of(light), alpha), shown);
+            } else {
+                color = over(vec4<f32>(light, alpha), color);
+            }
         }
     }
+    if in_srgb { return pack_rgba8(shown); }
     return encoded(color);
 }
 

@@ -332,7 +332,7 @@ pub fn compose(look: Look, scene: &Scene) -> Compose {
         ),
         Look::Published => (
             1,
-            Compose::OVERLAY | Compose::BACKDROP | Compose::SMOKE,
+            Compose::OVERLAY | Compose::LINES_IN_SRGB | Compose::BACKDROP | Compose::SMOKE,
             scene.parts[1].texture,
         ),
     };

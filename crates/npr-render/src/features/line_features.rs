@@ -3,6 +3,9 @@
 use npr_style::compose::Compose;
 use npr_stylesheet::{OutlineMethod, Style};
 
+/// How the last pass lays strokes over surfaces.
+const STROKE_LAYERS: u32 = Compose::RIBBONS | Compose::LINES_IN_SRGB;
+
 /// What the line methods of a style need, one flag for each group of passes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct LineFeatures {
@@ -58,7 +61,7 @@ impl LineFeatures {
         let strokes = self.strokes;
         Self {
             strokes,
-            layers: if strokes { Compose::RIBBONS } else { 0 },
+            layers: if strokes { STROKE_LAYERS } else { 0 },
             ..Self::NONE
         }
     }
@@ -91,7 +94,7 @@ impl LineFeatures {
             OutlineMethod::Off | OutlineMethod::Angle => none,
             OutlineMethod::Strokes | OutlineMethod::Potrace => Self {
                 strokes: true,
-                layers: Compose::RIBBONS,
+                layers: STROKE_LAYERS,
                 ..none
             },
             OutlineMethod::Shape => {

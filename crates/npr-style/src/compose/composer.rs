@@ -4,7 +4,7 @@ use super::{Compose, Layers};
 use crate::backdrop::ContrastCache;
 use crate::corners::Corners;
 use crate::line_color::LinePoint;
-use npr_core::color::SrgbEncoder;
+use npr_core::color::{SrgbEncoder, pack_rgba8, srgb_from_linear, unpack_rgba8};
 use npr_core::geometry::NONE;
 use npr_core::list::{self, Listed};
 use npr_core::raster::{HULL_BIT, ID_MASK};
@@ -116,6 +116,8 @@ impl<'a> Composer<'a> {
             }
             _ => 0.0,
         };
+        let in_srgb = self.layers.compose.flags & Compose::LINES_IN_SRGB != 0;
+        let mut shown = None;
         for line in lines {
             if line >> 24 != 0 {
                 let [r, g, b, a] = self.layers.linear_texel(line);
@@ -123,10 +125,16 @@ impl<'a> Composer<'a> {
                     self.layers
                         .contrasted(&mut self.contrast_cache, [r, g, b], frame_px);
                 let a = a * (1.0 - covered) * (1.0 - faded);
-                color = over([r, g, b, a], color);
+                if in_srgb {
+                    let below = shown.unwrap_or_else(|| unpack_rgba8(encoded(self.encoder, color)));
+                    let [r, g, b] = [r, g, b].map(srgb_from_linear);
+                    shown = Some(over_straight([r, g, b, a], below));
+                } else {
+                    color = over([r, g, b, a], color);
+                }
             }
         }
-        encoded(self.encoder, color)
+        shown.map_or_else(|| encoded(self.encoder, color), pack_rgba8)
     }
 
     /// Colour of a triangle that has one colour all over.
@@ -245,6 +253,14 @@ pub fn encoded(encoder: &SrgbEncoder, [r, g, b, a]: [f32; 4]) -> u32 {
     };
     let [r, g, b] = [r, g, b].map(|light| encoder.byte(light));
     r | g << 8 | b << 16 | ((a.clamp(0.0, 1.0) * 255.0 + 0.5) as u32) << 24
+}
+
+/// A layer laid over another, both with straight alpha.
+fn over_straight(top: [f32; 4], below: [f32; 4]) -> [f32; 4] {
+    let left = below[3] * (1.0 - top[3]);
+    let alpha = top[3] + left;
+    let mixed = |i: usize| (top[i] * top[3] + below[i] * left) / alpha.max(1e-6);
+    [mixed(0), mixed(1), mixed(2), alpha]
 }
 
 /// A straight-alpha layer laid over a premultiplied one.
