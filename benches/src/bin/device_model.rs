@@ -280,7 +280,9 @@ fn report(job: &Job, engine: &str, rows: &[Row]) {
         job.size[0],
         job.size[1]
     );
-    println!("- strokes are not part of it: no pass draws them yet\n");
+    println!(
+        "- a pass of it draws strokes; finding them, on the processor or in graphs of their own, is no part of it\n"
+    );
     println!("{RULES}");
 
     let (frame, measured_ms) = sum(rows);
@@ -375,7 +377,7 @@ fn goals(job: &Job, frame: &Cost) {
         [GOAL.launch_us, 3.0, 10.0].map(|us| GOAL.launching_in(us).predicted_ms(frame));
     println!(
         "- under {GOAL_MS} ms at {} GB/s, asked of 300000 triangles with strokes: predicted {ms:.2} ms ({best:.2} to \
-         {worst:.2} with launches of 3 to 10 us) for {} triangles without strokes, so it {}",
+         {worst:.2} with launches of 3 to 10 us) for {} triangles with strokes that were found before, so it {}",
         GOAL.gigabytes_per_s,
         job.subject.triangle_count(),
         verdict(ms < GOAL_MS)

@@ -54,8 +54,8 @@ struct Look {
 }
 
 impl Look {
-    /// The published method, lines alone, and what the command draws unasked.
-    fn all() -> Outcome<[Self; 3]> {
+    /// The published method, lines alone, tones under lines drawn on shapes, and what the command draws unasked.
+    fn all() -> Outcome<[Self; 4]> {
         let mut published = Style::preset("okuya")?;
         published.antialias.samples = 1;
         Ok([
@@ -66,14 +66,19 @@ impl Look {
                 style: published,
             },
             Self {
-                name: "technical",
+                name: "technical@1",
                 note: "Edges are chosen by kind before they are drawn, and there is one tone.",
-                style: Style::preset("technical")?,
+                style: Style::preset("technical@1")?,
+            },
+            Self {
+                name: "toon@1",
+                note: "Lines are found on images and drawn on shapes. Triangles that lie in one tone are shaded once; \
+                       large ones cross tones more often and are shaded by pixel.",
+                style: Style::preset("toon@1")?,
             },
             Self {
                 name: "toon",
-                note: "Triangles that lie in one tone are shaded once; large ones cross tones more often and are \
-                       shaded by pixel.",
+                note: "The same with strokes, which are found anew in every frame.",
                 style: Style::default(),
             },
         ])
@@ -100,7 +105,8 @@ fn report() -> Outcome<()> {
         let grid = measure_grid(look)?;
         print_fit(&grid);
     }
-    print_mask_scales(&looks)?;
+    let has_mask = |look: &Look| !look.style.has_curves();
+    print_mask_scales(&looks.into_iter().filter(has_mask).collect::<Vec<_>>())?;
     print_bunny()?;
     println!("Load average at the end: {}.", machine::load());
     Ok(())

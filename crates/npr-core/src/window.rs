@@ -82,7 +82,8 @@ impl View {
         1.0 / self.pixel_at(depth)
     }
 
-    /// 1 at the near plane, falling with depth to 0; in a parallel view, whose near plane may lie behind the eye, a half.
+    /// 1 at the near plane, falling with depth to 0; a half in a parallel view, whose near plane may lie behind the
+    /// eye.
     #[inline]
     pub fn nearness(&self, depth: f32) -> f32 {
         if self.perspective < 0.5 {

@@ -2,10 +2,10 @@
 //!
 //! What comes in is a [`Drawing`](npr_vector::stroke::Drawing): points with widths and colours, in pixels, y down.
 //! [`artwork`] decides what a file shows of it, in which layers, and on which page; [`svg`], [`pdf`] and [`drawing`]
-//! write that, [`json`] the strokes themselves; [`ink`] gives points for the pass that inks a frame. On the way [`fit`] makes cubic curves of points, [`outline`] the
-//! outline of a stroke whose width varies, and [`plot`] an order with short ways in the air. [`taper`] thins strokes
-//! towards their ends, [`fill`] makes closed regions of what lines enclose, [`lettering`] outlines of words, and
-//! [`centreline`] files of centre lines.
+//! write that, [`json`] the strokes themselves; [`ink`] gives points for the pass that inks a frame. On the way
+//! [`fit`] makes cubic curves of points, [`outline`] the outline of a stroke whose width varies, and [`plot`] an order
+//! with short ways in the air. [`taper`] thins strokes towards their ends, [`fill`] makes closed regions of what lines
+//! enclose, [`lettering`] outlines of words, and [`centreline`] files of centre lines.
 //!
 //! ```
 //! use npr_drawing::svg::{SvgOptions, write_svg};

@@ -78,8 +78,8 @@ pub trait Session {
     /// [`EngineError`] where the device is lost.
     fn write(&mut self, id: ResourceId, words: &[u32]) -> Result<(), EngineError>;
 
-    /// Makes room in a buffer for `count` elements, where it has less; nothing else of the graph changes. Runs in flight
-    /// keep the memory that they started with.
+    /// Makes room in a buffer for `count` elements, where it has less; nothing else of the graph changes. Runs in
+    /// flight keep the memory that they started with.
     ///
     /// What a buffer held is gone where it grows: it is all zero, as at first.
     ///

@@ -1,7 +1,8 @@
 //! Scene and style in, drawing out.
 //!
 //! [`Subject::new`] prepares a scene once: a [`Model`], welded, with edges and curvature, and a [`LineModel`], which
-//! strokes are found in. A [`Renderer`] joins it with a style and a frame size on an engine, and [`Renderer::draw`] makes a picture for a camera, as often as wanted;
+//! strokes are found in. A [`Renderer`] joins it with a style and a frame size on an engine, and [`Renderer::draw`]
+//! makes a picture for a camera, as often as wanted;
 //! [`Renderer::frames`] draws sequences, the next frame on its way while the one before is used.
 //! [`Smoke`] among its options is drawn with it, or alone with a model of an empty scene. A [`LineModel`] alone draws
 //! the same scene as curves; a [`LineRenderer`] lets a device do its part.

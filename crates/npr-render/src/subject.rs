@@ -45,8 +45,8 @@ impl Subject {
 
     /// The lines of a scene, where a style draws strokes; `folder` is that of [`LineModel::for_style`].
     ///
-    /// There are none where the memory limit is too low for them, but for a style with lines of method `potrace`: frames
-    /// draw those of `strokes` by `shape` then.
+    /// There are none where the memory limit is too low for them, and frames draw them by `shape` then. For a style
+    /// with lines of method `potrace`, which nothing stands in for, that is an error.
     ///
     /// # Errors
     ///

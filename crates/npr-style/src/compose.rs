@@ -108,8 +108,8 @@ impl Compose {
     pub const SMOKE: u32 = 8;
     /// Finishes the smoke: its picture still holds tones and lines, see [`crate::smoke::pen`].
     pub const SMOKE_PEN: u32 = 16;
-    /// Blends lines by their sRGB values, as viewers of SVG do: a hair line over two rows of pixels looks as dark as over
-    /// one.
+    /// Blends lines by their sRGB values, as viewers of SVG do: a hair line over two rows of pixels looks as dark as
+    /// over one.
     pub const LINES_IN_SRGB: u32 = 32;
     /// Adapts lines to the colours on both of their sides, [`Layers::fronts`] and [`Layers::backs`].
     pub const BACKDROP: u32 = 64;

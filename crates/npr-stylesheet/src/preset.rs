@@ -274,7 +274,8 @@ const OLDER: &[Preset] = &[
     Preset {
         name: "lit-lines",
         version: 1,
-        title: "Lines thin and warm where lit, heavy and cool in the shade, bright where light from behind catches them",
+        title: "Lines thin and warm where lit, heavy and cool in the shade, bright where light from \
+                behind catches them",
         text: include_str!("../presets/older/lit-lines-1.toml"),
     },
     Preset {

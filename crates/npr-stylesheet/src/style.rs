@@ -91,8 +91,8 @@ impl Style {
         self.curve_sources().next().is_some()
     }
 
-    /// The same style with lines of method `strokes` drawn by `shape`, which needs no line model; `None` where there are
-    /// no such lines.
+    /// The same style with lines of method `strokes` drawn by `shape`, which needs no line model; `None` where there
+    /// are no such lines.
     pub fn with_shapes_for_strokes(&self) -> Option<Self> {
         let mut style = self.clone();
         let of_rules = style.rule.iter_mut().flat_map(|rule| &mut rule.line.method);

@@ -115,8 +115,8 @@ fn lines_taper_at_free_ends_or_at_all() {
     assert!(lost.iter().all(is_near_end), "{lost:?}");
 }
 
-/// A frame of strokes has as much ink as their lengths times their widths, down to hair lines, and has it where a file of
-/// the same drawing has it.
+/// A frame of strokes has as much ink as their lengths times their widths, down to hair lines, and has it where a file
+/// of the same drawing has it.
 #[test]
 fn frames_show_what_files_hold() {
     let mut style = lines("strokes");

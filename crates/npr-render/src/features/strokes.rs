@@ -1,5 +1,5 @@
-//! Strokes as the lines of a frame: those of parts whose method is `strokes` or `potrace`, found before the frame is drawn
-//! and inked by a pass of it.
+//! Strokes as the lines of a frame: those of parts whose method is `strokes` or `potrace`, found before the frame is
+//! drawn and inked by a pass of it.
 
 use crate::error::RenderError;
 use crate::frame::Frame;
