@@ -90,6 +90,7 @@ const LIBRARIES: &[Library] = &[
     always!("pixel"),
     always!("pose"),
     always!("ribbon"),
+    always!("ribbon_quad"),
     serving!(Features::RIBBONS, "ribbon_layer"),
     always!("samples"),
     serving!(Features::TEXTURES, "sampling"),

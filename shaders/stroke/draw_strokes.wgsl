@@ -8,6 +8,7 @@
 //# use lib/window
 //# use lib/color
 //# use lib/ribbon
+//# use lib/ribbon_quad
 
 struct InkPoint {
     px: vec2<f32>,
@@ -37,18 +38,8 @@ fn vertex(@builtin(vertex_index) index: u32) -> Varying {
     if a.goes_on == 0u || element + 1u >= arrayLength(&points) { return passed; }
     let b = points[element + 1u];
 
-    var along = b.px - a.px;
-    let length = sqrt(along.x * along.x + along.y * along.y);
-    along = select(vec2<f32>(1.0, 0.0), along / length, length > 1e-6);
-    let corner = index % 6u;
-    let at_b = corner == 1u || corner == 2u || corner == 4u;
-    let at_left = corner == 2u || corner == 4u || corner == 5u;
-    let reach = max(a.half_width, b.half_width) + 1.5;
-    let end = select(a.px - along * reach, b.px + along * reach, at_b);
-    let px = end + vec2<f32>(-along.y, along.x) * select(-reach, reach, at_left);
-
-    let in_window = (px - window.frame_origin) / (window.frame_step * vec2<f32>(window.size));
-    passed.position = vec4<f32>(in_window.x * 2.0 - 1.0, 1.0 - in_window.y * 2.0, 0.5, 1.0);
+    let ribbon = Ribbon(a.px, b.px, a.half_width, b.half_width);
+    passed.position = ribbon_corner(window, ribbon, index % 6u);
     passed.spine = vec4<f32>(a.px, b.px);
     passed.halves_and_nearness = vec4<f32>(a.half_width, b.half_width, a.nearness, b.nearness);
     passed.colors = vec2<u32>(a.color, b.color);

@@ -18,10 +18,17 @@ pub struct Ink {
 impl Ink {
     /// Pixels that black covers by more than half; they mix with the paper in linear light.
     pub fn of(frame: &Frame) -> Self {
-        let dark = frame
-            .rgba
-            .chunks_exact(4)
-            .map(|pixel| pixel[1] < HALF_COVERED);
+        Self::darker_than(frame, HALF_COVERED)
+    }
+
+    /// The same of strokes, which mix with the paper by their sRGB values.
+    pub fn of_strokes(frame: &Frame) -> Self {
+        Self::darker_than(frame, 128)
+    }
+
+    fn darker_than(frame: &Frame, byte: u8) -> Self {
+        let pixels = frame.rgba.chunks_exact(4);
+        let dark = pixels.map(|pixel| pixel[1] < byte);
         Self {
             size: frame.size,
             dark: dark.collect(),

@@ -4,7 +4,7 @@ use crate::error::RenderError;
 use crate::features::blending::Blending;
 use crate::features::lettering::Lettering;
 use crate::features::speed_lines::SpeedLines;
-use crate::features::strokes::{self, FoundStrokes};
+use crate::features::strokes::{self, StrokeReport};
 use crate::frame::Frame;
 use crate::frame_graph::pixel_count;
 use crate::frame_renderer::{Aimed, FramePlan, FrameRenderer};
@@ -20,10 +20,17 @@ use npr_core::camera::Camera;
 use npr_gpu::cost::PassCost;
 use npr_gpu::engine::{Engine, IN_FLIGHT};
 use npr_stylesheet::Style;
+use npr_vector::stroke::Drawing;
+use std::borrow::Cow;
 
-/// What a frame says that has no strokes for want of a line model.
-pub(crate) const NO_STROKES: &str =
-    "lines of method strokes are drawn by method shape, for want of a line model";
+/// The style that frames without a line model are drawn in, with what they tell where it is another one.
+pub(crate) fn without_lines(style: &Style) -> (Cow<'_, Style>, Option<String>) {
+    let notice = "lines of method strokes are drawn by method shape, for want of a line model";
+    match style.with_shapes_for_strokes() {
+        Some(shapes) => (Cow::Owned(shapes), Some(notice.to_owned())),
+        None => (Cow::Borrowed(style), None),
+    }
+}
 
 /// A model, a style and a frame size on an engine: draws a picture for any camera.
 pub struct Renderer<'a> {
@@ -43,8 +50,8 @@ pub struct Renderer<'a> {
 /// A frame that is being drawn, and what finishing it needs: the renderer may be told of the next one meanwhile.
 pub(crate) struct Begun {
     aimed: Aimed,
-    /// The strokes of the frame.
-    strokes: FoundStrokes,
+    /// How its strokes were found.
+    strokes: StrokeReport,
     /// The same frame in the other look of a blend.
     other: Option<Box<Begun>>,
 }
@@ -70,12 +77,13 @@ impl<'a> RendererPlan<'a> {
     ) -> Result<Self, RenderError> {
         // Resolve the style and its words.
         check_size(options.size)?;
-        let shapes = style.with_shapes_for_strokes().filter(|_| !has_lines);
-        let style = shapes.as_ref().unwrap_or(style);
+        let (style, notice) = match has_lines {
+            true => (Cow::Borrowed(style), None),
+            false => without_lines(style),
+        };
+        let style = &*style;
         let mut styled = StyledModel::new(model, style, options)?;
-        if shapes.is_some() {
-            styled.inked.notices.push(NO_STROKES.to_owned());
-        }
+        styled.inked.notices.extend(notice);
         let lettering = Lettering::new(style, &options.fonts)?;
         let notices = &mut styled.inked.notices;
         notices.extend_from_slice(lettering.notices());
@@ -251,8 +259,8 @@ impl<'a> Renderer<'a> {
             "the frame needs all of its pixels at once"
         );
         self.forget_begun();
-        let strokes = self.find_strokes(camera)?;
-        let mut aimed = self.frames.begin(self.model, camera, &strokes.drawings)?;
+        let (drawings, strokes) = self.find_strokes(camera)?;
+        let mut aimed = self.frames.begin(self.model, camera, &drawings)?;
         let [width, height] = self.frames.plan.options.size;
         let tiles = *self.frames.plan.tiles();
         let mut reported = Frame::new([width, 0]);
@@ -304,8 +312,8 @@ impl<'a> Renderer<'a> {
 
     /// Starts to draw the model, and the other look of a blend, as a camera sees it.
     pub(crate) fn begin(&mut self, camera: &Camera) -> Result<Begun, RenderError> {
-        let strokes = self.find_strokes(camera)?;
-        let aimed = self.frames.begin(self.model, camera, &strokes.drawings)?;
+        let (drawings, strokes) = self.find_strokes(camera)?;
+        let aimed = self.frames.begin(self.model, camera, &drawings)?;
         let other = match &mut self.blended {
             Some((other, _)) => Some(Box::new(other.begin(camera)?)),
             None => None,
@@ -357,8 +365,11 @@ impl<'a> Renderer<'a> {
         }
     }
 
-    /// Finds the strokes that a camera sees.
-    fn find_strokes(&mut self, camera: &Camera) -> Result<FoundStrokes, RenderError> {
+    /// Finds the strokes that a camera sees, and tells how.
+    fn find_strokes(
+        &mut self,
+        camera: &Camera,
+    ) -> Result<(Vec<Drawing>, StrokeReport), RenderError> {
         let plan = &self.frames.plan;
         strokes::find(self.lines.as_mut(), camera, (&plan.style, &plan.options))
     }

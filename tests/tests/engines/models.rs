@@ -1,7 +1,8 @@
 //! The same pictures from both engines: 99.8 % of pixels within 2 of 255, and no 8x8 block beyond 6 of 255.
 
+use npr_gpu::engine::Engine;
 use npr_gpu::processor::Processor;
-use npr_render::{Model, Picture, RendererOptions, Subject};
+use npr_render::{Frame, Model, Picture, RendererOptions, Subject};
 use npr_scene::Scene;
 use npr_stylesheet::Style;
 use npr_tests::{Agreement, asset, device, draw_of, draw_with, models, models_camera, samples};
@@ -21,15 +22,12 @@ fn agreement(what: &str, model: &Model, style: &Style, size: [u32; 2]) -> Option
 
 /// The same with the strokes that a style asks for.
 fn agreement_of(what: &str, scene: &Scene, style: &Style, size: [u32; 2]) -> Option<Agreement> {
-    let device = device()?;
     let subject = Subject::new(scene, style).unwrap();
     let camera = models_camera(&subject.model, size);
     let options = RendererOptions::new(size);
-    let one = draw_of(&Processor, &subject, style, &camera, &options);
-    let two = draw_of(device, &subject, style, &camera, &options);
-    let agreement = Agreement::between(&one, &two, 2);
-    println!("{what:45} {agreement}");
-    Some(agreement)
+    compared(what, |engine| {
+        draw_of(engine, &subject, style, &camera, &options)
+    })
 }
 
 fn agreement_with(
@@ -38,11 +36,16 @@ fn agreement_with(
     style: &Style,
     options: &RendererOptions,
 ) -> Option<Agreement> {
-    let device = device()?;
     let camera = models_camera(model, options.size);
-    let one = draw_with(&Processor, model, style, &camera, options);
-    let two = draw_with(device, model, style, &camera, options);
-    let agreement = Agreement::between(&one, &two, 2);
+    compared(what, |engine| {
+        draw_with(engine, model, style, &camera, options)
+    })
+}
+
+/// Compares what both engines draw, and prints how far they agree; nothing without a device.
+fn compared(what: &str, draw: impl Fn(&dyn Engine) -> Frame) -> Option<Agreement> {
+    let device = device()?;
+    let agreement = Agreement::between(&draw(&Processor), &draw(device), 2);
     println!("{what:45} {agreement}");
     Some(agreement)
 }
@@ -271,7 +274,7 @@ fn films_agree() {
         ..RendererOptions::new(size)
     };
     let mut camera = models_camera(&model, size);
-    let engines: [&dyn npr_gpu::engine::Engine; 2] = [&Processor, device];
+    let engines: [&dyn Engine; 2] = [&Processor, device];
     let mut renderers =
         engines.map(|engine| npr_render::Renderer::new(engine, &model, &style, &options).unwrap());
     let mut first = None;

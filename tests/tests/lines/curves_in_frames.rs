@@ -22,6 +22,13 @@ fn scene() -> Scene {
     ])
 }
 
+/// The processor, and the device where there is one.
+fn engines() -> impl Iterator<Item = &'static dyn Engine> {
+    let processor: &dyn Engine = &Processor;
+    let device = device().map(|device| device as &dyn Engine);
+    [processor].into_iter().chain(device)
+}
+
 fn drawn(style: &Style, with_lines: bool) -> Frame {
     let scene = scene();
     let model = Model::new(&scene).unwrap();
@@ -105,9 +112,9 @@ fn lines_taper_at_free_ends_or_at_all() {
     assert!(tapered(30.0, TaperEnds::Free).rgba == plain.rgba);
     let all = tapered(30.0, TaperEnds::All);
     // Ink goes, and only where the outlines cross: right of the left ball's middle, above and below.
-    let [before, after] = [&plain, &all].map(Ink::of);
+    let [before, after] = [&plain, &all].map(Ink::of_strokes);
     let lost: Vec<[f32; 2]> = before.without(&after.grown(1)).centers().collect();
-    assert!(lost.len() > 5 && after.without(&before.grown(1)).count() == 0);
+    assert!(lost.len() > 8 && after.without(&before.grown(1)).count() == 0);
     let is_near_end = |[x, y]: &[f32; 2]| {
         let [dx, dy] = [x - 144.0, y - 120.0];
         dx.abs() < 36.0 && (10.0..70.0).contains(&dy.abs())
@@ -185,12 +192,7 @@ fn there_is_room_for_any_number_of_strokes() {
         target: [0.0, 0.0, 90.0],
         ..front()
     };
-    let processor: &dyn Engine = &Processor;
-    for engine in device()
-        .map(|device| device as _)
-        .into_iter()
-        .chain([processor])
-    {
+    for engine in engines() {
         let renderer = || subject.renderer(engine, &style, &options).unwrap();
         let fresh = renderer().draw(&front()).unwrap();
         assert!(
@@ -212,12 +214,7 @@ fn there_is_room_for_any_number_of_strokes() {
 fn tiles_and_bands_have_the_strokes_of_the_whole() {
     let (scene, style) = (scene(), lines("strokes"));
     let subject = Subject::new(&scene, &style).unwrap();
-    let processor: &dyn Engine = &Processor;
-    for engine in device()
-        .map(|device| device as _)
-        .into_iter()
-        .chain([processor])
-    {
+    for engine in engines() {
         let renderer = |tile_pixels: u32| {
             let options = RendererOptions {
                 tile_pixels,

@@ -6,7 +6,7 @@ use crate::look::StyledModel;
 use crate::model::Model;
 use crate::options::{RendererOptions, check_size};
 use crate::placement::Bounds;
-use crate::renderer::NO_STROKES;
+use crate::renderer::without_lines;
 use crate::smoke::Smoke;
 use glam::{DMat4, Mat4, Vec3};
 use npr_core::budget::Budget;
@@ -219,15 +219,13 @@ fn plan(
 ) -> Result<(FramePlan, [ResourceId; 2]), RenderError> {
     check_size(options.size)?;
     check_recorded(style)?;
-    let shapes = style.with_shapes_for_strokes();
+    let (style, notice) = without_lines(style);
     let style = Style {
         background: Background::Transparent,
-        ..shapes.as_ref().unwrap_or(style).clone()
+        ..style.into_owned()
     };
     let mut styled = StyledModel::new(model, &style, options)?;
-    if shapes.is_some() {
-        styled.inked.notices.push(NO_STROKES.to_owned());
-    }
+    styled.inked.notices.extend(notice);
     let (plan, picture) = FramePlan::with_depths(model, &style, options, styled);
     if plan.tiles().kept != options.size {
         let [width, height] = options.size;

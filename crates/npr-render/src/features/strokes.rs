@@ -22,15 +22,14 @@ use npr_vector::stroke_ink::InkPoint;
 /// Points that there is room for at first; frames with more of them make more room.
 const FIRST_ROOM: usize = 4096;
 
-/// The strokes that a camera sees, and how they were found.
+/// How strokes were found.
 #[derive(Debug, Default)]
-pub(crate) struct FoundStrokes {
-    pub drawings: Vec<Drawing>,
-    pub times: Vec<PassTime>,
-    pub notices: Vec<String>,
+pub(crate) struct StrokeReport {
+    times: Vec<PassTime>,
+    notices: Vec<String>,
 }
 
-impl FoundStrokes {
+impl StrokeReport {
     /// Tells with a frame how long it took to find them, and what the user should know of it.
     pub fn tell(&self, frame: &mut Frame) {
         frame.times.extend_from_slice(&self.times);
@@ -38,21 +37,21 @@ impl FoundStrokes {
     }
 }
 
-/// Finds the strokes that a camera sees of the parts whose method asks for them; without a line model there is a notice
-/// instead.
+/// Finds the strokes that a camera sees of the parts whose method asks for them, and tells how; without a line model
+/// there is a notice instead.
 pub(crate) fn find(
     lines: Option<&mut LineRenderer<'_>>,
     camera: &Camera,
     (style, options): (&Style, &RendererOptions),
-) -> Result<FoundStrokes, RenderError> {
-    let mut found = FoundStrokes::default();
+) -> Result<(Vec<Drawing>, StrokeReport), RenderError> {
+    let (mut drawings, mut report) = (Vec::new(), StrokeReport::default());
     if !style.has_curves() {
-        return Ok(found);
+        return Ok((drawings, report));
     }
     let Some(lines) = lines else {
         let notice = "lines of method potrace are left out: no line model was given";
-        found.notices.push(notice.to_owned());
-        return Ok(found);
+        report.notices.push(notice.to_owned());
+        return Ok((drawings, report));
     };
     let of_style = LineOptions {
         dpi: options.dpi,
@@ -61,11 +60,11 @@ pub(crate) fn find(
     for method in style.curve_sources() {
         let of_method = LineOptions { method, ..of_style };
         let drawing = lines.draw_curves(camera, style, &of_method, &options.pictures)?;
-        found.times.extend_from_slice(lines.times());
-        found.notices.extend_from_slice(&drawing.notices);
-        found.drawings.push(drawing);
+        report.times.extend_from_slice(lines.times());
+        report.notices.extend_from_slice(&drawing.notices);
+        drawings.push(drawing);
     }
-    Ok(found)
+    Ok((drawings, report))
 }
 
 /// The pass that inks strokes, and what the host fills for it.
@@ -108,14 +107,18 @@ impl StrokePasses {
             .collect();
 
         // Make room for more than there are: the next view may have a few more.
-        if points.len() > graph.element_count(self.points) {
+        let room = graph.element_count(self.points);
+        if points.len() > room {
             let count = points.len() + points.len() / 2;
-            let mut grown = graph.clone();
-            grown.grow(self.points, count);
-            let planned = grown.planned_bytes() as usize;
-            Budget::new(graph_limit).take("the strokes of the frame", planned, 1)?;
+            let mut budget = Budget::new(graph_limit);
+            budget.take("the plan of the frame", graph.planned_bytes() as usize, 1)?;
+            budget.take(
+                "the strokes of the frame",
+                count - room,
+                size_of::<InkPoint>(),
+            )?;
             session.grow(self.points, count)?;
-            *graph = grown;
+            graph.grow(self.points, count);
         }
 
         // Write them, and how many there are.
