@@ -1,6 +1,7 @@
 // Linked lists and their ranking. Twin: npr_vector::rank.
 
 //# use lib/geometry
+//# use lib/random
 
 const WINDOW: u32 = 8u;
 const WALK_LIMIT: u32 = 512u;
@@ -36,14 +37,6 @@ struct Standing {
     head: u32,
     rank: u32,
     length: u32,
-}
-
-// A permutation of the 32-bit numbers that looks random. Twin: npr_core::math::mix_bits.
-fn mix_bits(number: u32) -> u32 {
-    var x = number;
-    x = (x ^ (x >> 16u)) * 0x7feb352du;
-    x = (x ^ (x >> 15u)) * 0x846ca68bu;
-    return x ^ (x >> 16u);
 }
 
 fn hash_key(key: u32) -> u32 {

@@ -67,6 +67,8 @@ features! {
     STREAKS = 22;
     /// Colours of surfaces differ from point to point.
     COLORS = 23;
+    /// Strokes are drawn with brushes that leave ink out.
+    BRUSHES = 24;
 }
 
 impl Features {

@@ -1,6 +1,6 @@
 //! What every other crate of the drawing machine stands on.
 //!
-//! Deterministic math ([`math`]), numbers that look random ([`random`]), colour encoding ([`color`]), cameras
+//! Deterministic math ([`math`]), numbers that look random ([`random`]), the grain of paper ([`grain`]), colour encoding ([`color`]), cameras
 //! ([`camera`]), the structs that passes read and write on both engines ([`geometry`], [`window`]), the surface point
 //! under a pixel ([`surface`]), packed textures ([`texture`]), and a triangle rasteriser with a stated fill rule
 //! ([`raster`]); spheres of smoke ([`smoke`]); the kinds of line ([`line_kind`]), how they are found
@@ -23,6 +23,7 @@ pub mod cutout;
 pub mod decoding;
 pub mod edge_flags;
 pub mod geometry;
+pub mod grain;
 pub mod layout;
 pub mod light_view;
 pub mod line_color;

@@ -107,6 +107,14 @@ pub enum RenderError {
         /// Why not.
         source: npr_style::hatch::HatchError,
     },
+    /// A picture cannot serve as the image of a brush.
+    #[error("{key}: {source}")]
+    Brush {
+        /// The key that names it.
+        key: String,
+        /// Why not.
+        source: npr_style::brush::BrushError,
+    },
     /// The engine failed.
     #[error(transparent)]
     Engine(#[from] EngineError),

@@ -229,6 +229,7 @@ impl Needs {
             Features::TINTS.when(self.features.paints),
             Features::SMOKE.when(has_smoke),
             Features::SMOKE_PEN.when(layers(Compose::SMOKE_PEN)),
+            Features::BRUSHES.when(!styled.brushes.all.is_empty()),
             Features::SMOKE_SHADOWS.when(has_smoke && casts && *are_same),
         ];
         all.into_iter().fold(Features::NONE, Features::or)
@@ -266,9 +267,14 @@ impl Passes {
         frame.draw_ids(frame.color_window, frame.ids, frame.depths);
         let lines = ScreenLines::plan(&mut frame, grids, counts.edges, features);
         let targets = [lines.ribbons, lines.keys];
-        let strokes = features
-            .strokes
-            .then(|| StrokePasses::plan(&mut frame, targets, !features.ribbons));
+        let strokes = features.strokes.then(|| {
+            StrokePasses::plan(
+                &mut frame,
+                targets,
+                styled.brushes.all.len(),
+                !features.ribbons,
+            )
+        });
         if features.hull {
             hull::plan(&mut frame, counts.vertices);
         }
@@ -400,6 +406,9 @@ impl<S: Session> FrameRenderer<S> {
         write(session, frame.texels, styled.textures.words())?;
         let edges = model.edges_by(look::creases(style).from);
         passes.lines.upload(session, &edges)?;
+        if let Some(passes) = &passes.strokes {
+            passes.upload(session, &styled.brushes)?;
+        }
         passes.shadows.upload(session)?;
         passes.contrast.upload(session, &needs.contrast)?;
         self.upload_smoke()
@@ -520,12 +529,14 @@ impl<S: Session> FrameRenderer<S> {
         self.turn_strokes(model, &light::strongest(&lights), camera)?;
         let FramePlan {
             passes,
+            needs,
             graph_limit,
             ..
         } = &mut self.plan;
         if let Some(inked) = &passes.strokes {
             let (graph, seen) = (&mut passes.frame.graph, (&view, strokes));
-            inked.upload_view(&mut self.session, graph, seen, *graph_limit)?;
+            let brushes = (&needs.styled.brushes, base_px);
+            inked.upload_view(&mut self.session, graph, seen, brushes, *graph_limit)?;
         }
         self.before = Some(view);
         Ok(view)

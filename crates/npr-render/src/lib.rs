@@ -24,6 +24,7 @@
 
 mod beam_light;
 mod bend;
+mod brushes;
 #[cfg(feature = "wgpu")]
 mod device;
 mod error;

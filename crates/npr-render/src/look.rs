@@ -1,5 +1,6 @@
 //! A style applied to a model: the numbers that passes read.
 
+use crate::brushes::Brushes;
 use crate::error::RenderError;
 use crate::hatching::{FrameScale, Inked, add_ink};
 use crate::line_colors::add_line_colors;
@@ -41,6 +42,8 @@ pub(crate) struct StyledModel {
     pub background_texture: u32,
     /// What hides the sky, where the style asks for it.
     pub sky: Option<SkyMaps>,
+    /// What strokes are drawn with.
+    pub brushes: Brushes,
 }
 
 impl StyledModel {
@@ -92,6 +95,7 @@ impl StyledModel {
             &mut textures,
         )?;
         inked.notices.extend(style.line_paint_notices());
+        let brushes = Brushes::new(model, style, &pictures, &frame, &mut textures)?;
         if parts.is_empty() {
             parts.push(Part::default());
         }
@@ -114,6 +118,7 @@ impl StyledModel {
             textures,
             background_texture,
             sky,
+            brushes,
         })
     }
 }

@@ -17,6 +17,7 @@
 
 pub mod backdrop;
 pub mod beam;
+pub mod brush;
 pub mod compose;
 mod corners;
 mod dome;

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::overlay::style_table;
-use crate::{Color, Kinds, LineBackground, LinePaint, LineSource, Potrace, Width};
+use crate::{Color, Kinds, LineBackground, LineBrush, LinePaint, LineSource, Potrace, Width};
 
 /// How lines are found and drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
@@ -102,6 +102,8 @@ pub struct Line {
     pub potrace: Potrace = Potrace::default(),
     /// How wide lines are.
     pub width: Width = Width::default(),
+    /// What strokes are drawn with.
+    pub brush: LineBrush = LineBrush::default(),
     /// How their colour minds what lies behind them.
     pub background: LineBackground = LineBackground::default(),
 }

@@ -2,8 +2,8 @@
 
 use crate::overlay::Over;
 use crate::{
-    Beam, Color, Highlight, Ink, LineBackground, LinePaint, OutlineMethod, PartNames, Rule, Stop,
-    Style,
+    Beam, Color, Highlight, Ink, LineBackground, LineBrush, LinePaint, OutlineMethod, PartNames,
+    Rule, Stop, Style,
 };
 
 /// The look of one part of the scene, with all rules applied.
@@ -23,6 +23,8 @@ pub struct Look<'a> {
     pub angle_threshold_deg: f32,
     /// How its lines adapt to what lies behind them.
     pub line_background: LineBackground,
+    /// What its strokes are drawn with.
+    pub line_brush: LineBrush,
     /// The subject that it belongs to, where a rule names one.
     pub subject: Option<&'a str>,
     /// Colour in place of its material's, where a rule gives one.
@@ -52,6 +54,7 @@ impl<'a> Look<'a> {
             width_factor: 1.0,
             angle_threshold_deg: style.line.angle_threshold_deg,
             line_background: style.line.background.clone(),
+            line_brush: style.line.brush.clone(),
             subject: None,
             shade_color: None,
             ramp: &style.shade.ramp,
@@ -75,6 +78,7 @@ impl<'a> Look<'a> {
             width_factor: line.width_factor.unwrap_or(self.width_factor),
             angle_threshold_deg: line.angle_threshold_deg.unwrap_or(self.angle_threshold_deg),
             line_background: line.background.over(self.line_background),
+            line_brush: line.brush.over(self.line_brush),
             subject: rule.subject.as_deref().or(self.subject),
             shade_color: shade.color.or(self.shade_color),
             ramp: shade.ramp.as_deref().unwrap_or(self.ramp),

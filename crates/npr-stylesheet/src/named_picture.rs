@@ -6,6 +6,7 @@ use crate::{LightShape, Style};
 const RAMP: &str = "shade.ramp_image";
 const HATCH: &str = "ink.hatch.image";
 const LINE_PAINT: &str = "line.paint.image";
+const LINE_BRUSH: &str = "line.brush.image";
 const BLEND_MASK: &str = "blend.mask";
 const SMOKE_RAMP: &str = "smoke.ramp_image";
 const SMOKE_HATCH: &str = "smoke.ink.hatch.image";
@@ -22,6 +23,7 @@ impl Style {
             (RAMP.to_owned(), self.shade.ramp_image.as_str()),
             (HATCH.to_owned(), self.ink.hatch.image.as_str()),
             (LINE_PAINT.to_owned(), self.line.paint.image.as_str()),
+            (LINE_BRUSH.to_owned(), self.line.brush.image.as_str()),
             (BLEND_MASK.to_owned(), self.blend.mask.as_str()),
             (SMOKE_RAMP.to_owned(), self.smoke.ramp_image.as_str()),
             (SMOKE_HATCH.to_owned(), self.smoke.ink.hatch.image.as_str()),
@@ -38,6 +40,7 @@ impl Style {
                 (RAMP, &rule.shade.ramp_image),
                 (HATCH, &rule.ink.hatch.image),
                 (LINE_PAINT, &rule.line.paint.image),
+                (LINE_BRUSH, &rule.line.brush.image),
             ];
             for (key, name) in of_rule {
                 named.extend(

@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::ramp::Stop;
 use crate::{
-    Color, OutlineMethod, RuleBackground, RuleBeam, RuleHighlight, RuleInk, RuleMotion, RulePaint,
-    glob, id_map,
+    Color, OutlineMethod, RuleBackground, RuleBeam, RuleHighlight, RuleInk, RuleLineBrush,
+    RuleMotion, RulePaint, glob, id_map,
 };
 
 /// What a rule applies to: all patterns have to match.
@@ -59,6 +59,8 @@ pub struct RuleLine {
     pub angle_threshold_deg: Option<f32>,
     /// How its lines mind what lies behind them.
     pub background: RuleBackground,
+    /// What its strokes are drawn with.
+    pub brush: RuleLineBrush,
 }
 
 /// What a rule changes about the fill; what is absent stays.

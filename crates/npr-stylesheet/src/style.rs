@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::overlay::Over;
 use crate::{
     Antialias, Background, BackgroundMethod, Blend, Detect, Highlight, IdMap, Ink, Lettering,
-    Light, Line, LineSource, Motion, OutlineMethod, Parents, Rule, Shade, SmokeStyle,
+    Light, Line, LineSource, Motion, OutlineMethod, Paper, Parents, Rule, Shade, SmokeStyle,
 };
 
 /// What a picture should look like.
@@ -37,6 +37,8 @@ pub struct Style {
     pub light: Light,
     /// Which lines are drawn, and with what.
     pub line: Line,
+    /// The paper that strokes are drawn on.
+    pub paper: Paper,
     /// How the line mask is found.
     pub detect: Detect,
     /// How smoke looks, where the scene has any.
@@ -73,6 +75,7 @@ impl Default for Style {
             highlight: Highlight::default(),
             light: Light::default(),
             line: Line::default(),
+            paper: Paper::default(),
             detect: Detect::default(),
             smoke: SmokeStyle::default(),
             antialias: Antialias::default(),

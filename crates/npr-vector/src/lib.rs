@@ -9,7 +9,7 @@
 //! | [`pixel_strokes`] | strokes of the pixels that lines cover | [Jiang et al. 2022] |
 //! | [`image_lines`] | borders between surfaces in a picture, and lines painted in textures | |
 //! | [`rank`] | list ranking, which orders the nodes of lines in parallel | [Wyllie 1979] |
-//! | [`stroke_ink`] | strokes in the pixels of a frame | |
+//! | [`stroke_ink`] | strokes in the pixels of a frame, drawn with a [`brush`] | |
 //!
 //! Functions of [`screen`], [`rank`], [`pixel_strokes`] and [`stroke_ink`] are twins of shaders. All ways but the first
 //! end in a [`stroke::Drawing`]; [`project`] and [`surface_location`] say where its points lie. Bitmaps alone are the
@@ -20,6 +20,7 @@
 //! assert_eq!(npr_vector::screen::sweep::line_coverage(0.0, 0.5), 1.0);
 //! ```
 
+pub mod brush;
 pub mod image_lines;
 pub mod mesh_lines;
 pub mod pixel_strokes;

@@ -1,5 +1,6 @@
 //! Ink of strokes in the pixels of a frame: the twin of `stroke.draw_strokes`.
 
+use crate::brush::{BrushedPiece, Brushes};
 use crate::screen::sweep::{Ribbon, draw_bands, line_key};
 use bytemuck::{Pod, Zeroable};
 use npr_core::color::{pack_rgba8, unpack_rgba8};
@@ -19,21 +20,43 @@ pub struct InkPoint {
     pub nearness: f32,
     /// sRGB bytes and alpha, red lowest.
     pub color: u32,
-    /// Whether the stroke runs on to the point behind this one in the list, 0 or 1.
-    pub goes_on: u32,
+    /// [`InkPoint::GOES_ON`] and the other bits, and the number of its brush from [`InkPoint::BRUSH_SHIFT`] on.
+    pub flags: u32,
+    /// Place along the image of the brush, which repeats from each whole number to the next.
+    pub u: f32,
+    /// Share of full pressure, 0..1.
+    pub pressure: f32,
 }
 gpu_layout!(InkPoint {
     px,
     half_width,
     nearness,
     color,
-    goes_on
+    flags,
+    u,
+    pressure
 });
+
+impl InkPoint {
+    /// The stroke is drawn from here to the point behind this one in the list.
+    pub const GOES_ON: u32 = 1;
+    /// The stroke runs on to that point, whether this piece of it is drawn or, of a ring, another one like it.
+    pub const JOINED: u32 = 2;
+    /// The image of the brush is turned over, left to right.
+    pub const MIRRORED: u32 = 4;
+    /// The lowest bit of the number of the brush.
+    pub const BRUSH_SHIFT: u32 = 8;
+
+    /// Whether the stroke is drawn from here to the point behind this one in the list.
+    pub fn goes_on(&self) -> bool {
+        self.flags & Self::GOES_ON != 0
+    }
+}
 
 /// A piece of a stroke between two points.
 struct Piece {
     ribbon: Ribbon,
-    ends: [InkPoint; 2],
+    brushed: BrushedPiece,
 }
 
 impl AsRef<Ribbon> for Piece {
@@ -46,19 +69,31 @@ impl AsRef<Ribbon> for Piece {
 ///
 /// Joins and ends are round, without a notch at any width and bend; where a stroke is thinner than a pixel it is
 /// fainter. Between points, width and colour change evenly. `keys` (reversed depth bits) keep the best [`line_key`] of
-/// each pixel; of equal ones the first piece wins. O(points + covered pixels), parallel over bands of rows, each in
-/// the order of the points.
-pub fn draw(window: &Window, points: &[InkPoint], layer: &mut [u32], keys: &mut [u32]) {
-    let pairs = points.par_windows(2).with_min_len(4096);
-    let pieces: Vec<Piece> = pairs
-        .filter(|pair| pair[0].goes_on != 0)
-        .map(|pair| Piece::between(pair[0], pair[1]))
+/// each pixel; of equal ones the first piece wins. A brush with an image leaves ink out: then the pieces of a stroke
+/// share its pixels by the nearest, so that the image runs along the stroke without seams. O(points + covered pixels),
+/// parallel over bands of rows, each in the order of the points.
+pub fn draw(
+    window: &Window,
+    (points, brushes): (&[InkPoint], Brushes<'_>),
+    layer: &mut [u32],
+    keys: &mut [u32],
+) {
+    let starts = (0..points.len().saturating_sub(1)).into_par_iter();
+    let starts = starts.with_min_len(4096);
+    let pieces: Vec<Piece> = starts
+        .filter(|start| points[*start].goes_on())
+        .map(|start| Piece::new(points, start))
         .collect();
-    draw_bands(&pieces, window, layer, keys, &Piece::ink);
+    let ink = |piece: &Piece, px: [f32; 2], texel: &mut u32, best: &mut u32| {
+        piece.ink(brushes, px, texel, best);
+    };
+    draw_bands(&pieces, window, layer, keys, &ink);
 }
 
 impl Piece {
-    fn between(a: InkPoint, b: InkPoint) -> Self {
+    fn new(points: &[InkPoint], start: usize) -> Self {
+        let brushed = BrushedPiece::new(points, start);
+        let [a, b] = brushed.ends;
         Self {
             ribbon: Ribbon {
                 a: a.px,
@@ -66,21 +101,30 @@ impl Piece {
                 half_a: a.half_width,
                 half_b: b.half_width,
             },
-            ends: [a, b],
+            brushed,
         }
     }
 
     /// Inks one pixel where the piece covers it better than the line that is there.
-    fn ink(&self, px: [f32; 2], texel: &mut u32, best: &mut u32) {
-        let (coverage, t) = self.ribbon.swept(px);
+    fn ink(&self, brushes: Brushes<'_>, px: [f32; 2], texel: &mut u32, best: &mut u32) {
+        let [a, b] = self.brushed.ends;
+        let (mut coverage, t) = self.ribbon.swept(px);
         if coverage * 255.0 < 0.5 {
             return;
         }
-        let [a, b] = self.ends;
         let nearness = a.nearness + (b.nearness - a.nearness) * t;
-        let key = line_key(coverage, nearness).to_bits();
+        let mut key = line_key(coverage, nearness).to_bits();
         if key <= *best {
             return;
+        }
+
+        // What the brush leaves out can only make it less.
+        if let Some(brush) = brushes.of(a.flags >> InkPoint::BRUSH_SHIFT) {
+            coverage *= brushes.ink(brush, &self.brushed, px);
+            key = line_key(coverage, nearness).to_bits();
+            if coverage * 255.0 < 0.5 || key <= *best {
+                return;
+            }
         }
         let [from, to] = [a, b].map(|end| unpack_rgba8(end.color));
         let [red, green, blue, alpha] = [0, 1, 2, 3].map(|i| from[i] + (to[i] - from[i]) * t);
@@ -104,7 +148,7 @@ mod tests {
 
     fn drawn(points: &[InkPoint]) -> Vec<[f32; 4]> {
         let [mut layer, mut keys] = [0, 1].map(|_| vec![0; (SIDE * SIDE) as usize]);
-        draw(&window(), points, &mut layer, &mut keys);
+        draw(&window(), (points, Brushes::SOLID), &mut layer, &mut keys);
         layer.into_iter().map(unpack_rgba8).collect()
     }
 
@@ -118,7 +162,9 @@ mod tests {
                 half_width: *half_width,
                 nearness: 0.5,
                 color: 0xff00_0000,
-                goes_on: u32::from(i < last),
+                flags: u32::from(i < last) * (InkPoint::GOES_ON | InkPoint::JOINED),
+                u: 0.0,
+                pressure: 1.0,
             })
             .collect()
     }
@@ -136,7 +182,7 @@ mod tests {
             for (slot, texel) in drawn.iter().enumerate() {
                 let (column, row) = (slot as u32 % SIDE, slot as u32 / SIDE);
                 let px = window().frame_at(column, row);
-                let pieces = points.windows(2).map(|pair| Piece::between(pair[0], pair[1]));
+                let pieces = (0..points.len() - 1).map(|start| Piece::new(&points, start));
                 let most = pieces.map(|piece| piece.ribbon.swept(px).0).fold(0.0, f32::max);
                 prop_assert!((texel[3] - most).abs() < 1.5 / 255.0, "{:?}: {:?} {}", px, texel, most);
             }
@@ -196,7 +242,7 @@ mod tests {
             [30.0, 40.0, 2.0],
             [40.0, 40.0, 2.0],
         ]);
-        points[1].goes_on = 0;
+        points[1].flags = 0;
         let drawn = drawn(&points);
         let at = |x: u32, y: u32| drawn[(y * SIDE + x) as usize][3];
         assert_eq!([at(15, 10), at(35, 40)], [1.0; 2]);

@@ -160,6 +160,36 @@ const ENABLING: &[(&str, &[&str], &str)] = &[
         "other lines meet that of the ball",
     ),
     (
+        "line.brush",
+        &["line.brush.tip='chalk'", "line.width.base='5px'"],
+        "a pen has one even ink",
+    ),
+    (
+        "line.brush.image",
+        &["line.brush.image='b.png'"],
+        "the picture differs from another one",
+    ),
+    (
+        "line.brush.dry",
+        &["line.brush.dry=0.9"],
+        "the tip's own may be what is tried",
+    ),
+    (
+        "line.brush.grain",
+        &["line.brush.grain=1.6"],
+        "the tip's own may be what is tried",
+    ),
+    (
+        "line.brush.soft",
+        &["line.brush.soft=0.4"],
+        "the tip's own may be what is tried",
+    ),
+    (
+        "paper",
+        &["line.brush.tip='chalk'", "line.width.base='5px'"],
+        "a pen does not mind the paper",
+    ),
+    (
         "line.width.taper",
         &[
             "line.width.taper.start='12px'",

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 
+mod brushes_in_frames;
 mod contour_growth;
 mod curves_in_frames;
 mod outlines;

@@ -222,6 +222,7 @@ impl Builder {
         };
         self.give("charts", charts, bytemuck::cast_slice(&scene.charts));
         self.give_buffer("texels", &scene.texels);
+        self.give_buffer("brushes", &scene.brushes);
         self.make_buffer("posed", 48, scene.vertices.len());
         self.make_buffer("lit", 48, scene.vertices.len());
         self.make_buffer("projected", 16, scene.vertices.len());

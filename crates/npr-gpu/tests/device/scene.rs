@@ -12,12 +12,14 @@ use npr_core::window::View;
 use npr_mesh::testing::{Random, torus, uv_sphere};
 use npr_mesh::{EdgeFlags, NO_FACE, smooth_normals, unique_edges, weld};
 use npr_style::backdrop::{Criteria, PartSubject, Rule, Rules};
+use npr_style::brush::{BrushImage, Tip};
 use npr_style::compose::Compose;
 use npr_style::lighting::{LightSource, Lights};
 use npr_style::line_color::HUES;
 use npr_style::smoke::{SmokeLook, pen};
 use npr_style::tone_row::{row_words, tone_row};
 use npr_stylesheet::{HueStop, hue_row};
+use npr_vector::brush::Brush;
 use npr_vector::stroke_ink::InkPoint;
 
 /// Width and height of the frame that windows are laid over.
@@ -43,6 +45,8 @@ pub struct Scene {
     pub edges: Vec<Edge>,
     pub charts: Vec<ChartCorners>,
     pub texels: Vec<u32>,
+    /// A pen, and brushes whose images lie in the texels.
+    pub brushes: Vec<Brush>,
 }
 
 impl Scene {
@@ -70,8 +74,10 @@ impl Scene {
             let size = [HUES as u32, 1];
             store.add(size, &hue_row(&stops), [Wrap::Clamp; 2]).unwrap()
         });
+        let brushes = brushes(&mut store);
         let mut scene = Self {
             texels: store.words().to_vec(),
+            brushes,
             palette: palette(),
             ..Self::default()
         };
@@ -530,6 +536,19 @@ pub fn strokes() -> Vec<InkPoint> {
     for stroke in 0..40 {
         let thick = if stroke % 4 == 0 { 7.0 } else { 1.5 };
         let count = 2 + stroke % 9;
+        // Half of them with a pen, and the other half with a brush each, on either side, some as parts of rings.
+        let number = if stroke % 2 == 0 {
+            0
+        } else {
+            1 + stroke as u32 / 2 % 3
+        };
+        let mirrored = if stroke % 3 == 0 {
+            InkPoint::MIRRORED
+        } else {
+            0
+        };
+        let drawn = InkPoint::GOES_ON | if stroke % 5 == 0 { 0 } else { InkPoint::JOINED };
+        let brush = number << InkPoint::BRUSH_SHIFT | mirrored;
         let mut px = FRAME_PX.map(|side| (1.2 * random.unit() - 0.1) * side as f32);
         for i in 0..count {
             points.push(InkPoint {
@@ -537,13 +556,41 @@ pub fn strokes() -> Vec<InkPoint> {
                 half_width: thick * random.unit(),
                 nearness: random.unit(),
                 color: [0, 8, 16, 24].map(|bit| (random.unit() * 255.0) as u32 | 64 << bit)[i % 4],
-                goes_on: u32::from(i + 1 < count),
+                flags: if i + 1 < count { drawn } else { 0 } | brush,
+                u: 0.13 * i as f32 - 0.2,
+                pressure: random.unit(),
             });
             px = px.map(|at| at + 18.0 * (random.unit() - 0.5));
         }
     }
     points[1].px = points[0].px;
     points
+}
+
+/// A pen, a dry brush, an airbrush and a brush that is a picture of odd sides.
+fn brushes(store: &mut TextureStore) -> Vec<Brush> {
+    let picture: Vec<u8> = (0..37 * 5 * 4).map(|i| (i * i % 251) as u8).collect();
+    let images = [
+        Tip::DryBrush.image(),
+        Tip::Airbrush.image(),
+        BrushImage::from_picture([37, 5], &picture).ok(),
+    ];
+    let numbers = [[1.3, 0.4, 0.1], [0.0, 0.0, 1.0], [0.6, 0.8, 0.5]];
+    let mut brushes = vec![Brush::default()];
+    for (image, [dry, grain, soft]) in images.into_iter().flatten().zip(numbers) {
+        let [texels_along, texels_across] = image.size();
+        brushes.push(Brush {
+            start: store.add_words(&image.words()).unwrap(),
+            texels_along,
+            texels_across,
+            levels: image.levels(),
+            dry,
+            grain,
+            soft,
+            spots_per_px: 0.4,
+        });
+    }
+    brushes
 }
 
 /// Settings of smoke of a look: smoothed on grids with drawn lines, or in windows with published ones.

@@ -1,6 +1,7 @@
 //! Strokes as the lines of a frame: those of parts whose method is `strokes` or `potrace`, found before the frame is
 //! drawn and inked by a pass of it.
 
+use crate::brushes::Brushes;
 use crate::error::RenderError;
 use crate::frame::Frame;
 use crate::frame_graph::{FrameGraph, write};
@@ -10,13 +11,14 @@ use npr_core::budget::Budget;
 use npr_core::camera::Camera;
 use npr_core::window::View;
 use npr_drawing::ink::ink_points;
-use npr_gpu::engine::{PassTime, Session};
+use npr_gpu::engine::{EngineError, PassTime, Session};
 use npr_gpu::graph::{Graph, ResourceId, WorkSize};
 use npr_gpu::pass::Work;
 use npr_gpu::passes::stroke::DRAW_STROKES;
 use npr_stylesheet::Style;
+use npr_vector::brush::Brush;
 use npr_vector::rank::work::Arguments;
-use npr_vector::stroke::Drawing;
+use npr_vector::stroke::{Drawing, Stroke};
 use npr_vector::stroke_ink::InkPoint;
 
 /// Points that there is room for at first; frames with more of them make more room.
@@ -71,26 +73,46 @@ pub(crate) fn find(
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct StrokePasses {
     points: ResourceId,
+    brushes: ResourceId,
     /// How many vertices are drawn.
     size: ResourceId,
 }
 
 impl StrokePasses {
-    /// Adds the pass that inks strokes into a picture and its keys, which are cleared before where `clears`.
-    pub fn plan(frame: &mut FrameGraph, targets: [ResourceId; 2], clears: bool) -> Self {
+    /// Adds the pass that inks strokes with `brush_count` brushes into a picture and its keys, which are cleared before
+    /// where `clears`.
+    pub fn plan(
+        frame: &mut FrameGraph,
+        targets: [ResourceId; 2],
+        brush_count: usize,
+        clears: bool,
+    ) -> Self {
         let graph = &mut frame.graph;
         let points = graph.buffer::<InkPoint>("stroke points", FIRST_ROOM);
+        let brushes = graph.buffer::<Brush>("brushes", brush_count.max(1));
         let size = graph.buffer::<Arguments>("size of strokes", 1);
         let drawn = WorkSize {
             arguments: size,
             index: 0,
         };
-        let bound = [frame.output_window, points];
+        let bound = [frame.output_window, points, brushes, frame.texels];
         graph.draw_sized(&DRAW_STROKES, (&bound, &targets), clears, Some(drawn));
-        Self { points, size }
+        Self {
+            points,
+            brushes,
+            size,
+        }
     }
 
-    /// Hands over the strokes that a camera sees.
+    /// Hands over the brushes.
+    pub fn upload(&self, session: &mut dyn Session, brushes: &Brushes) -> Result<(), EngineError> {
+        match brushes.all.is_empty() {
+            true => write(session, self.brushes, &[Brush::default()]),
+            false => write(session, self.brushes, &brushes.all),
+        }
+    }
+
+    /// Hands over the strokes that a camera sees, and how `brushes` lie on them where the base width is `base_px`.
     ///
     /// Where there is less room than they take, the graph and its session get more, up to `graph_limit` bytes in all.
     pub fn upload_view(
@@ -98,12 +120,14 @@ impl StrokePasses {
         session: &mut dyn Session,
         graph: &mut Graph,
         (view, drawings): (&View, &[Drawing]),
+        (brushes, base_px): (&Brushes, f32),
         graph_limit: u64,
     ) -> Result<(), RenderError> {
         let nearness = |depth: f64| view.nearness(depth as f32);
+        let lay_of = |stroke: &Stroke| brushes.lay_of(stroke, base_px);
         let points: Vec<InkPoint> = drawings
             .iter()
-            .flat_map(|drawing| ink_points(drawing, &nearness))
+            .flat_map(|drawing| ink_points(drawing, &nearness, &lay_of))
             .collect();
 
         // Make room for more than there are: the next view may have a few more.

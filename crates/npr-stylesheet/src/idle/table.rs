@@ -6,8 +6,8 @@ use crate::OutlineMethod::{
 };
 use crate::Pattern;
 use crate::{
-    BackgroundMethod, Edge, Follow, HighlightModel, LineColorSource, LineStart, Mapping, Measure,
-    ShadeMode, SmokeLines, SmokeMethod, SmokeParticles, Tone, WidthSource,
+    BackgroundMethod, BrushMapping, Edge, Follow, HighlightModel, LineColorSource, LineStart,
+    Mapping, Measure, ShadeMode, SmokeLines, SmokeMethod, SmokeParticles, Tone, WidthSource,
 };
 use npr_core::geometry::Part;
 use npr_core::line_source::LineSource;
@@ -66,6 +66,7 @@ pub(super) const ENTRIES: &[Entry] = &[
     entry(
         &[
             "line",
+            "paper",
             "detect",
             "shade",
             "ink",
@@ -101,6 +102,11 @@ pub(super) const ENTRIES: &[Entry] = &[
         &["line.method"],
         |c| !c.is_frame(),
         "--method says how its lines are found",
+    ),
+    entry(
+        &["line.brush", "paper"],
+        |c| !c.is_frame(),
+        "brushes are of pictures: drawings of lines have even ink",
     ),
     entry(
         &["motion", "blend"],
@@ -364,6 +370,9 @@ pub(super) const ENTRIES: &[Entry] = &[
     of_methods(&["line.width.short", "line.width.taper"], |c| {
         !c.is_drawn_by(&[Strokes, Potrace])
     }),
+    of_methods(&["line.brush", "paper"], |c| {
+        !c.is_drawn_by(&[Strokes, Potrace])
+    }),
     of_methods(&["detect.scale"], |c| {
         !c.is_drawn_by(&[Shape, Okuya, Filter, FilterHull, Edges])
     }),
@@ -397,6 +406,33 @@ pub(super) const ENTRIES: &[Entry] = &[
         ],
         |c| !c.style.line.width.taper.is_on(),
         "line.width.taper.start and end are 0",
+    ),
+    entry(
+        &["line.brush.tip"],
+        |c| !c.any(|look| look.line_brush.image.is_empty()),
+        "line.brush.image is in its place",
+    ),
+    entry(
+        &[
+            "line.brush.mapping",
+            "line.brush.stretch",
+            "line.brush.dry",
+            "line.brush.grain",
+            "line.brush.soft",
+            "paper",
+        ],
+        |c| !c.any(|look| !look.line_brush.is_pen()),
+        "line.brush.tip is pen, which has one even ink",
+    ),
+    entry(
+        &["line.brush.stretch"],
+        |c| !c.any(|look| look.line_brush.mapping == BrushMapping::Length),
+        "line.brush.mapping is once",
+    ),
+    entry(
+        &["paper"],
+        |c| !c.any(|look| !look.line_brush.is_pen() && look.line_brush.manner().grain > 0.0),
+        "line.brush.grain is 0",
     ),
     entry(
         &["line.width.channel"],

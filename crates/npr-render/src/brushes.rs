@@ -1,0 +1,152 @@
+//! The brushes that a style draws the strokes of a model with.
+
+use crate::error::RenderError;
+use crate::hatching::FrameScale;
+use crate::model::Model;
+use crate::pictures::Pictures;
+use npr_core::texture::TextureStore;
+use npr_drawing::ink::BrushLay;
+use npr_style::brush::BrushImage;
+use npr_stylesheet::{BrushMapping, LineBrush, Style};
+use npr_vector::brush::Brush;
+use npr_vector::stroke::Stroke;
+
+/// Fewest hills of the paper to a pixel, and most: finer ones would be grey.
+const SPOTS_PER_PX: [f32; 2] = [1e-3, 1.0];
+
+/// The brushes of a style, and how they lie on the strokes of every part.
+#[derive(Debug, Default)]
+pub(crate) struct Brushes {
+    /// The brushes, a pen first; empty where all draw with a pen.
+    pub all: Vec<Brush>,
+    /// How that of every part lies on strokes: its number, and how many base widths its image is long.
+    of_parts: Vec<(u32, Option<f32>)>,
+}
+
+/// A picture or a tip whose texels lie in the texture store.
+struct StoredImage {
+    brush: LineBrush,
+    header: Brush,
+    length: f32,
+}
+
+impl Brushes {
+    /// Gives every part that draws strokes its brush, and puts the images into the texture store, each once.
+    pub fn new(
+        model: &Model,
+        style: &Style,
+        pictures: &Pictures<'_>,
+        frame: &FrameScale,
+        textures: &mut TextureStore,
+    ) -> Result<Self, RenderError> {
+        // Find the brushes that are no pens.
+        let looks = model.parts.iter().map(|info| info.look(style));
+        let drawn: Vec<Option<LineBrush>> = looks
+            .map(|look| {
+                let draws = look.line_on && look.line_method.source().is_some();
+                Some(look.line_brush).filter(|brush| draws && !brush.is_pen())
+            })
+            .collect();
+        if drawn.iter().all(Option::is_none) {
+            return Ok(Self::default());
+        }
+
+        // Store the image of each once.
+        let px = [frame.height_px as f32, frame.dpi, frame.world_px];
+        let size_px = style.paper.size.to_px(px[0], px[1], px[2]);
+        let [fewest, most] = SPOTS_PER_PX;
+        let spots_per_px = (1.0 / size_px).max(fewest).min(most);
+        let mut brushes = Self {
+            all: vec![Brush::default()],
+            of_parts: Vec::with_capacity(drawn.len()),
+        };
+        let mut stored: Vec<StoredImage> = Vec::new();
+        for brush in drawn {
+            let Some(brush) = brush else {
+                brushes.of_parts.push((0, None));
+                continue;
+            };
+            let has_it = |other: &StoredImage| {
+                (&other.brush.image, other.brush.tip) == (&brush.image, brush.tip)
+            };
+            let found = match stored.iter().position(has_it) {
+                Some(found) => found,
+                None => {
+                    stored.push(StoredImage::new(&brush, pictures, textures)?);
+                    stored.len() - 1
+                }
+            };
+
+            // Let it take to paper in its own manner.
+            let StoredImage { header, length, .. } = &stored[found];
+            let manner = brush.manner();
+            let own = Brush {
+                dry: manner.dry,
+                grain: manner.grain,
+                soft: manner.soft,
+                spots_per_px,
+                ..*header
+            };
+            let number = match brushes.all.iter().position(|other| *other == own) {
+                Some(number) => number,
+                None => {
+                    brushes.all.push(own);
+                    brushes.all.len() - 1
+                }
+            };
+            let images = match brush.mapping {
+                BrushMapping::Length => Some(length * brush.stretch),
+                BrushMapping::Once => None,
+            };
+            brushes.of_parts.push((number as u32, images));
+        }
+        Ok(brushes)
+    }
+
+    /// How a brush lies on a stroke, where the base width is `base_px`.
+    pub fn lay_of(&self, stroke: &Stroke, base_px: f32) -> BrushLay {
+        let of_part = self.of_parts.get(stroke.surface as usize);
+        of_part.map_or(BrushLay::PEN, |(brush, length)| BrushLay {
+            brush: *brush,
+            length_px: length.map(|length| f64::from(length) * f64::from(base_px)),
+        })
+    }
+}
+
+impl StoredImage {
+    fn new(
+        brush: &LineBrush,
+        pictures: &Pictures<'_>,
+        textures: &mut TextureStore,
+    ) -> Result<Self, RenderError> {
+        let name = &brush.image;
+        let image = match name.is_empty() {
+            true => brush.tip.image(),
+            false => {
+                let picture = pictures.of(name)?;
+                let image = BrushImage::from_picture(picture.size, &picture.rgba);
+                Some(image.map_err(|source| RenderError::Brush {
+                    key: pictures.key_of(name),
+                    source,
+                })?)
+            }
+        };
+        let stored = image.and_then(|image| Some((textures.add_words(&image.words())?, image)));
+        let (header, length) = stored.map_or((Brush::default(), 1.0), |(start, image)| {
+            let [texels_along, texels_across] = image.size();
+            let header = Brush {
+                start,
+                texels_along,
+                texels_across,
+                levels: image.levels(),
+                ..Brush::default()
+            };
+            (header, image.length())
+        });
+        Ok(Self {
+            brush: brush.clone(),
+            header,
+            length,
+        })
+    }
+}

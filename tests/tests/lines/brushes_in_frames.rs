@@ -1,0 +1,192 @@
+//! Strokes drawn with brushes, in frames.
+
+use npr_gpu::engine::Engine;
+use npr_gpu::processor::Processor;
+use npr_mesh::testing::icosphere;
+use npr_render::{Frame, Picture, RenderError, RendererOptions, Subject};
+use npr_scene::Scene;
+use npr_style::brush::Tip;
+use npr_stylesheet::Style;
+use npr_tests::Agreement;
+use npr_tests::comic::{SIZE, front};
+use npr_tests::{Object, device, lines, placed, scene_of};
+
+fn scene() -> Scene {
+    scene_of(&[
+        Object::new("Left", placed(&icosphere(4), [0.6; 3], [-0.7, 0.0, 0.0])),
+        Object::new("Right", placed(&icosphere(4), [0.6; 3], [0.4, 0.0, -1.0])),
+    ])
+}
+
+/// Thick strokes, with settings.
+fn thick(settings: &[&str]) -> Style {
+    let mut style = lines("strokes");
+    for setting in ["line.width.base=9px"].iter().chain(settings) {
+        style.set(setting).unwrap();
+    }
+    style
+}
+
+fn drawn_by(
+    engine: &dyn Engine,
+    style: &Style,
+    options: &RendererOptions,
+) -> Result<Frame, RenderError> {
+    let subject = Subject::new(&scene(), style)?;
+    subject.renderer(engine, style, options)?.draw(&front())
+}
+
+fn drawn(settings: &[&str]) -> Frame {
+    drawn_by(&Processor, &thick(settings), &RendererOptions::new(SIZE)).unwrap()
+}
+
+/// How dark every pixel is, 0..1.
+fn ink(frame: &Frame) -> Vec<f64> {
+    let pixels = frame.rgba.chunks(4);
+    pixels
+        .map(|pixel| 1.0 - f64::from(pixel[1]) / 255.0)
+        .collect()
+}
+
+/// Brushes leave ink out; none puts any where a pen has none. Each leaves something else.
+#[test]
+fn brushes_leave_out_ink_of_the_pen() {
+    let pen = ink(&drawn(&[]));
+    let total: f64 = pen.iter().sum();
+    let mut seen = Vec::new();
+    for tip in Tip::ALL.into_iter().filter(|tip| *tip != Tip::Pen) {
+        let name = serde_name(tip);
+        let frame = drawn(&[&format!("line.brush.tip={name}")]);
+        let inked = ink(&frame);
+        let strayed = inked
+            .iter()
+            .zip(&pen)
+            .filter(|(brush, pen)| *brush - *pen > 1.5 / 255.0);
+        assert_eq!(strayed.count(), 0, "{name}");
+        let share = inked.iter().sum::<f64>() / total;
+        assert!((0.1..0.995).contains(&share), "{name}: {share}");
+        assert!(seen.iter().all(|other| *other != frame.rgba), "{name}");
+        seen.push(frame.rgba);
+    }
+}
+
+fn serde_name(tip: Tip) -> String {
+    let table = toml::Table::try_from(std::collections::BTreeMap::from([("tip", tip)])).unwrap();
+    table["tip"].as_str().unwrap().to_owned()
+}
+
+#[test]
+fn engines_draw_the_same_brushes_in_tiles_or_whole() {
+    for tip in ["dry-brush", "pencil", "airbrush", "sketch"] {
+        let style = thick(&[
+            &format!("line.brush.tip={tip}"),
+            "line.width.taper.end=60px",
+        ]);
+        let options = RendererOptions::new(SIZE);
+        let whole = drawn_by(&Processor, &style, &options).unwrap();
+        let in_tiles = RendererOptions {
+            tile_pixels: 60 * 60,
+            ..options.clone()
+        };
+        let in_tiles = drawn_by(&Processor, &style, &in_tiles).unwrap();
+        assert!(
+            whole.rgba == in_tiles.rgba,
+            "{tip}: the paper lies still under tiles"
+        );
+        if let Some(device) = device() {
+            let there = drawn_by(device, &style, &options).unwrap();
+            let agreement = Agreement::between(&whole, &there, 2);
+            assert!(agreement.holds(), "{tip}: {agreement:?}");
+        }
+    }
+}
+
+#[test]
+fn a_picture_is_a_brush() {
+    // Bands across the stroke: ink in the first half of every image, none in the other.
+    let banded: Vec<u8> = (0..32 * 16)
+        .flat_map(|i| [255, 255, 255, if i % 32 < 16 { 255 } else { 0 }])
+        .collect();
+    let with = |size: [u32; 2], rgba: &[u8]| {
+        let mut options = RendererOptions::new(SIZE);
+        let picture = Picture {
+            size,
+            rgba: rgba.to_vec(),
+        };
+        options.pictures.insert("bands.png".to_owned(), picture);
+        let settings = [
+            "line.brush.image=bands.png",
+            "line.brush.grain=0.0",
+            "line.brush.stretch=2.0",
+        ];
+        drawn_by(&Processor, &thick(&settings), &options)
+    };
+    let pen: f64 = ink(&drawn(&[])).iter().sum();
+    let banded: f64 = ink(&with([32, 16], &banded).unwrap()).iter().sum();
+    assert!((banded / pen - 0.5).abs() < 0.05, "{banded} of {pen}");
+
+    // What is none is refused, by the key that names it.
+    let error = with([0, 0], &[]).unwrap_err().to_string();
+    assert!(error.starts_with("line.brush.image: "), "{error}");
+    let missing = drawn_by(
+        &Processor,
+        &thick(&["line.brush.image=gone.png"]),
+        &RendererOptions::new(SIZE),
+    );
+    assert!(
+        matches!(missing, Err(RenderError::MissingPicture { key, .. }) if key == "line.brush.image")
+    );
+}
+
+#[test]
+fn a_rule_gives_a_part_its_brush() {
+    let mut style = thick(&[]);
+    let rule = "[[rule]]\nmatch.object = 'Right'\nline.brush.tip = 'chalk'";
+    style.rule = Style::from_toml(rule, &|_| Err(String::new()))
+        .unwrap()
+        .rule;
+    let options = RendererOptions::new(SIZE);
+    let mixed = ink(&drawn_by(&Processor, &style, &options).unwrap());
+    let [pen, chalk] = ["pen", "chalk"].map(|tip| ink(&drawn(&[&format!("line.brush.tip={tip}")])));
+    // The left ball ends at 150, and the outline of the right one begins behind it.
+    let differs = |other: &[f64], columns: std::ops::Range<usize>| {
+        let slots = (0..mixed.len()).filter(|slot| columns.contains(&(slot % SIZE[0] as usize)));
+        slots
+            .filter(|slot| (mixed[*slot] - other[*slot]).abs() > 0.01)
+            .count()
+    };
+    assert_eq!(differs(&pen, 0..135), 0, "the left ball keeps its pen");
+    assert_eq!(
+        differs(&chalk, 165..SIZE[0] as usize),
+        0,
+        "the right ball has chalk"
+    );
+    assert!(differs(&chalk, 0..135) > 200 && differs(&pen, 165..SIZE[0] as usize) > 200);
+}
+
+/// Dry brushes leave more out where they are drier, coarse paper has larger spots, and an image once over a stroke is
+/// another picture than one by its length.
+#[test]
+fn keys_of_brushes_act() {
+    let total = |settings: &[&str]| -> f64 { ink(&drawn(settings)).iter().sum() };
+    let dry = |dry: &str| total(&["line.brush.tip=dry-brush", &format!("line.brush.dry={dry}")]);
+    assert!(dry("0.0") > dry("1.2") && dry("1.2") > dry("1.9"));
+    let spots = |size: &str| {
+        let frame = drawn(&["line.brush.tip=chalk", &format!("paper.size={size}")]);
+        // How often ink begins along rows.
+        let inked = ink(&frame);
+        let steps = inked
+            .windows(2)
+            .filter(|pair| (pair[0] > 0.5) != (pair[1] > 0.5));
+        steps.count()
+    };
+    assert!(spots("2px") > 2 * spots("9px"));
+    let mapped = |mapping: &str| {
+        drawn(&[
+            "line.brush.tip=dry-brush",
+            &format!("line.brush.mapping={mapping}"),
+        ])
+        .rgba
+    };
+    assert!(mapped("once") != mapped("length"));
+}
