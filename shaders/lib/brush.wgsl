@@ -123,7 +123,7 @@ fn brush_level(brush: Brush, level: u32, uv: vec2<f32>) -> vec2<f32> {
 }
 
 fn mix_texels(a: u32, b: u32, share: f32) -> vec2<f32> {
-    let from = vec2<f32>(f32(a & 255u), f32((a >> 8u) & 255u)) / 255.0;
-    let to = vec2<f32>(f32(b & 255u), f32((b >> 8u) & 255u)) / 255.0;
-    return from + (to - from) * share;
+    let first = vec2<f32>(f32(a & 255u), f32((a >> 8u) & 255u)) / 255.0;
+    let second = vec2<f32>(f32(b & 255u), f32((b >> 8u) & 255u)) / 255.0;
+    return first + (second - first) * share;
 }

@@ -4,7 +4,7 @@
 //! [`artwork`] decides what a file shows of it, in which layers, and on which page; [`svg`], [`pdf`] and [`drawing`]
 //! write that, [`json`] the strokes themselves; [`ink`] gives points for the pass that inks a frame. On the way
 //! [`fit`] makes cubic curves of points, [`outline`] the outline of a stroke whose width varies, and [`plot`] an order
-//! with short ways in the air. [`taper`] thins strokes towards their ends, [`fill`] makes closed regions of what lines
+//! with short ways in the air. [`taper`] thins strokes towards their ends, [`pressure`] by curves, [`fill`] makes closed regions of what lines
 //! enclose, [`lettering`] outlines of words, and [`centreline`] files of centre lines.
 //!
 //! ```
@@ -42,5 +42,6 @@ pub mod outline;
 mod page;
 pub mod pdf;
 pub mod plot;
+pub mod pressure;
 pub mod svg;
 pub mod taper;

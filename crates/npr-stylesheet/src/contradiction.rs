@@ -153,6 +153,22 @@ fn check_width(width: &Width) -> Result<(), StyleError> {
         ));
     }
 
+    // Refuse curves that run back.
+    let curves = [
+        (&width.pressure, "line.width.pressure"),
+        (&width.depth.curve, "line.width.depth.curve"),
+    ];
+    for (stops, key) in curves {
+        if let Some(i) = stops.windows(2).position(|pair| pair[1].at < pair[0].at) {
+            let key = format!("{key}.{}.at", i + 1);
+            return Err(StyleError::unfit(key, "lies before the stop ahead of it"));
+        }
+    }
+    if width.depth.far <= width.depth.near {
+        let reason = "has to lie beyond line.width.depth.near";
+        return Err(StyleError::unfit("line.width.depth.far", reason));
+    }
+
     // Refuse a source of widths that the style does not give.
     match width.source {
         WidthSource::Texture if width.texture.is_none() => Err(StyleError::unfit(

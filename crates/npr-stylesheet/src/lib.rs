@@ -121,7 +121,7 @@ pub use smoke::{
 pub use stated::Stated;
 pub use style::Style;
 pub use taper::{Taper, TaperEnds};
-pub use width::{Channel, ControlPoint, Width, WidthSource};
+pub use width::{Channel, ControlPoint, Width, WidthDepth, WidthSource, WidthStop};
 
 pub use npr_core::line_source::LineSource;
 pub use npr_style::brush::Tip;

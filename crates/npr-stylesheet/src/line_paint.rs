@@ -43,6 +43,17 @@ pub enum DepthSpace {
     World,
 }
 
+impl DepthSpace {
+    /// Places in it as distances: from the eye in the scene's unit, or from the middle of a model of a radius, whose
+    /// nearest point lies one radius before it and its farthest one behind.
+    pub fn counted(self, places: [f32; 2], radius: f32) -> [f32; 2] {
+        match self {
+            Self::Model => places.map(|share| (2.0 * share - 1.0) * radius),
+            Self::World => places,
+        }
+    }
+}
+
 /// A colour of a row and its place on it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -181,12 +192,7 @@ impl LinePaint {
         part.line_flags = self.flags();
         part.line_kinds = self.kinds.in_order().map(kind);
         part.line_factor = self.factor;
-        // Count depth from the middle of the model: its nearest point lies one radius before it, its farthest one
-        // behind.
-        let [start, end] = match self.depth.space {
-            DepthSpace::Model => [near, far].map(|share| (2.0 * share - 1.0) * radius),
-            DepthSpace::World => [near, far],
-        };
+        let [start, end] = self.depth.space.counted([near, far], radius);
         part.line_depth = [start, 1.0 / (end - start).max(1e-20)];
         part.line_opacity = self.light.opacity;
         part.line_width = self.light.width;

@@ -7,7 +7,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::{Length, Taper};
+use crate::overlay::style_table;
+use crate::{DepthSpace, Length, Taper};
 
 /// What decides a line's width along the surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
@@ -66,6 +67,35 @@ pub struct ControlPoint {
     pub factor: f32,
 }
 
+/// A factor on the width of strokes, and its place on a curve.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct WidthStop {
+    /// Its place, 0..1.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub at: f32,
+    /// What the width is multiplied by there, 0..10: 0 lifts the pen, 2 presses it down.
+    #[schemars(range(min = 0.0, max = 10.0))]
+    pub factor: f32,
+}
+
+style_table! {
+/// How the width of strokes changes with depth.
+pub struct WidthDepth {
+    /// What `near` and `far` count in; default `model`.
+    pub space: DepthSpace = DepthSpace::Model,
+    /// Where the curve begins, -1e6..1e6; default 0.
+    #[schemars(range(min = -1e6, max = 1e6))]
+    pub near: f32 = 0.0,
+    /// Where it ends, -1e6..1e6, beyond `near`; default 1.
+    #[schemars(range(min = -1e6, max = 1e6))]
+    pub far: f32 = 1.0,
+    /// Factors from near to far, up to 16 sorted by `at`; default none, even at all depths.
+    #[schemars(length(max = 16))]
+    pub curve: Vec<WidthStop> = Vec::new(),
+}
+}
+
 /// How wide lines are.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
@@ -97,6 +127,13 @@ pub struct Width {
     pub short: Length,
     /// How lines thin out towards their ends.
     pub taper: Taper,
+    /// Factors along strokes, from their start to their end, up to 16 sorted by `at`, joined by a smooth curve; default
+    /// none, even. Rings have no start, and keep their width.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 16))]
+    pub pressure: Vec<WidthStop>,
+    /// How width changes with depth.
+    pub depth: WidthDepth,
 }
 
 impl Default for Width {
@@ -112,6 +149,8 @@ impl Default for Width {
             control_points: Vec::new(),
             short: Length::ref_px(0.0),
             taper: Taper::default(),
+            pressure: Vec::new(),
+            depth: WidthDepth::default(),
         }
     }
 }

@@ -160,6 +160,16 @@ const ENABLING: &[(&str, &[&str], &str)] = &[
         "other lines meet that of the ball",
     ),
     (
+        "line.width.pressure",
+        &["line.width.pressure=[{ at = 0.1, factor = 0.6 }, { at = 0.9, factor = 1.4 }]"],
+        "a curve needs stops",
+    ),
+    (
+        "line.width.depth",
+        &["line.width.depth.curve=[{ at = 0.1, factor = 0.6 }, { at = 0.9, factor = 1.4 }]"],
+        "a curve needs stops",
+    ),
+    (
         "line.brush",
         &["line.brush.tip='chalk'", "line.width.base='5px'"],
         "a pen has one even ink",

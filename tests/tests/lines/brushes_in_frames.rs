@@ -1,4 +1,4 @@
-//! Strokes drawn with brushes, in frames.
+//! Strokes drawn with brushes and pressed by curves, in frames.
 
 use npr_gpu::engine::Engine;
 use npr_gpu::processor::Processor;
@@ -171,15 +171,16 @@ fn keys_of_brushes_act() {
     let total = |settings: &[&str]| -> f64 { ink(&drawn(settings)).iter().sum() };
     let dry = |dry: &str| total(&["line.brush.tip=dry-brush", &format!("line.brush.dry={dry}")]);
     assert!(dry("0.0") > dry("1.2") && dry("1.2") > dry("1.9"));
-    let spots = |size: &str| {
-        let frame = drawn(&["line.brush.tip=chalk", &format!("paper.size={size}")]);
-        // How often ink begins along rows.
-        let inked = ink(&frame);
+    // How often ink begins or ends along rows, beyond the edges of the strokes.
+    let steps = |settings: &[&str]| {
+        let inked = ink(&drawn(settings));
         let steps = inked
             .windows(2)
             .filter(|pair| (pair[0] > 0.5) != (pair[1] > 0.5));
         steps.count()
     };
+    let spots =
+        |size: &str| steps(&["line.brush.tip=chalk", &format!("paper.size={size}")]) - steps(&[]);
     assert!(spots("2px") > 2 * spots("9px"));
     let mapped = |mapping: &str| {
         drawn(&[
@@ -189,4 +190,29 @@ fn keys_of_brushes_act() {
         .rgba
     };
     assert!(mapped("once") != mapped("length"));
+}
+
+/// Far lines are thinner where the style says so, and open strokes are pressed along themselves; rings are not.
+#[test]
+fn widths_follow_curves_over_depth_and_along_strokes() {
+    let plain = ink(&drawn(&[]));
+    let share = |settings: &[&str], columns: std::ops::Range<usize>| {
+        let inked = ink(&drawn(settings));
+        let within = |slot: &usize| columns.contains(&(slot % SIZE[0] as usize));
+        let sum =
+            |ink: &[f64]| -> f64 { (0..ink.len()).filter(within).map(|slot| ink[slot]).sum() };
+        sum(&inked) / sum(&plain)
+    };
+    let (left, right) = (0..135, 165..SIZE[0] as usize);
+    let far = ["line.width.depth.curve=[{ at = 0.0, factor = 1.0 }, { at = 1.0, factor = 0.2 }]"];
+    let [near_share, far_share] = [&left, &right].map(|columns| share(&far, columns.clone()));
+    assert!(
+        far_share < near_share - 0.15 && near_share < 0.95,
+        "{near_share} {far_share}"
+    );
+    // The left ball is a ring; the outline of the right one ends at it, twice.
+    let light = ["line.width.pressure=[{ at = 0.0, factor = 0.25 }, { at = 1.0, factor = 0.25 }]"];
+    assert!((share(&light, left) - 1.0).abs() < 1e-9);
+    let pressed = share(&light, right);
+    assert!((pressed - 0.25).abs() < 0.02, "{pressed}");
 }

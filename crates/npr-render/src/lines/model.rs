@@ -22,17 +22,18 @@ use crate::options::{Picture, check_size};
 use crate::part_info::PartInfo;
 use crate::placement::{self, Bounds};
 use crate::smoke::Smoke;
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use npr_core::budget::{Budget, OverBudget};
 use npr_core::camera::Camera;
 use npr_core::crease::CreaseFrom;
 use npr_core::geometry::Part;
 use npr_core::line_source::LineSource;
+use npr_drawing::pressure::{Curve, Pressure, press_strokes};
 use npr_drawing::taper::{Taper, taper_strokes};
 use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_mesh::shape::Preparation;
 use npr_scene::Scene;
-use npr_stylesheet::{Length, Look, Style, TaperEnds};
+use npr_stylesheet::{DepthSpace, Length, Look, Style, TaperEnds, WidthStop};
 use npr_vector::mesh_lines::bvh::FaceTree;
 use npr_vector::mesh_lines::contour::EdgeContours;
 use npr_vector::mesh_lines::draw::{
@@ -376,6 +377,8 @@ impl LineModel {
             Vec::new()
         };
         let is_of_part = |stroke: &Stroke| (stroke.surface as usize) < self.parts.len();
+        let pressure = self.pressure_of(style, &projector);
+        press_strokes(&mut strokes, &pressure, is_of_part);
         let taper = taper_of(style, self.px(options));
         taper_strokes(&mut strokes, options.size, &taper, is_of_part);
         check_points(&strokes)?;
@@ -398,6 +401,30 @@ impl LineModel {
     fn px(&self, options: &LineOptions) -> [f32; 3] {
         let height = options.size[1] as f32;
         [height, options.dpi, height / self.radius()]
+    }
+
+    /// What strokes are pressed by in a view.
+    fn pressure_of(&self, style: &Style, projector: &Projector) -> Pressure {
+        let width = &style.line.width;
+        let curve = |stops: &[WidthStop]| {
+            let stops = stops
+                .iter()
+                .map(|stop| [stop.at, stop.factor].map(f64::from));
+            Curve::new(&stops.collect::<Vec<_>>())
+        };
+        let depth = &width.depth;
+        let counted = depth.space.counted([depth.near, depth.far], self.radius());
+        let (low, high) = self.bounds;
+        let middle = [0, 1, 2].map(|i| 0.5 * (f64::from(low[i]) + f64::from(high[i])));
+        let start = match depth.space {
+            DepthSpace::Model => projector.depth(DVec3::from(middle)),
+            DepthSpace::World => 0.0,
+        };
+        Pressure {
+            along: curve(&width.pressure),
+            depth: curve(&depth.curve),
+            range: counted.map(|from_start| start + f64::from(from_start)),
+        }
     }
 
     /// Colours along strokes, lit as in pictures but without beams and shadows.

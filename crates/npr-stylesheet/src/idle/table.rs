@@ -367,9 +367,15 @@ pub(super) const ENTRIES: &[Entry] = &[
         ],
         |c| !c.is_drawn_by(&[Shape, Okuya, Hull, FilterHull, Edges, Strokes, Potrace]),
     ),
-    of_methods(&["line.width.short", "line.width.taper"], |c| {
-        !c.is_drawn_by(&[Strokes, Potrace])
-    }),
+    of_methods(
+        &[
+            "line.width.short",
+            "line.width.taper",
+            "line.width.pressure",
+            "line.width.depth",
+        ],
+        |c| !c.is_drawn_by(&[Strokes, Potrace]),
+    ),
     of_methods(&["line.brush", "paper"], |c| {
         !c.is_drawn_by(&[Strokes, Potrace])
     }),
@@ -406,6 +412,15 @@ pub(super) const ENTRIES: &[Entry] = &[
         ],
         |c| !c.style.line.width.taper.is_on(),
         "line.width.taper.start and end are 0",
+    ),
+    entry(
+        &[
+            "line.width.depth.space",
+            "line.width.depth.near",
+            "line.width.depth.far",
+        ],
+        |c| c.style.line.width.depth.curve.is_empty(),
+        "line.width.depth.curve is empty",
     ),
     entry(
         &["line.brush.tip"],
