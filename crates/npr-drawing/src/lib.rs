@@ -4,7 +4,8 @@
 //! [`artwork`] decides what a file shows of it, in which layers, and on which page; [`svg`], [`pdf`] and [`drawing`]
 //! write that, [`json`] the strokes themselves; [`ink`] gives points for the pass that inks a frame. On the way
 //! [`fit`] makes cubic curves of points, [`outline`] the outline of a stroke whose width varies, and [`plot`] an order
-//! with short ways in the air. [`taper`] thins strokes towards their ends, [`fill`] makes closed regions of what lines
+//! with short ways in the air. [`overshoot`] lets strokes run on beyond their ends, [`taper`] thins them there, [`hand`]
+//! lets them sway and draws them more than once, and [`dash`] cuts them. [`fill`] makes closed regions of what lines
 //! enclose, [`lettering`] outlines of words, and [`centreline`] files of centre lines.
 //!
 //! ```
@@ -26,21 +27,28 @@
 //! assert!(svg.starts_with(b"<svg"));
 //! ```
 
+mod arc;
 pub mod artwork;
 pub mod centreline;
 mod clip;
 mod color_runs;
+pub mod dash;
 pub mod drawing;
 pub mod fill;
 pub mod fit;
+pub mod hand;
 pub mod ink;
 pub mod json;
 pub mod lettering;
 mod mark;
 mod near;
 pub mod outline;
+pub mod overshoot;
 mod page;
 pub mod pdf;
 pub mod plot;
+mod seed;
 pub mod svg;
 pub mod taper;
+#[cfg(test)]
+mod test_strokes;

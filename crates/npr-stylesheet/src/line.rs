@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::overlay::style_table;
-use crate::{Color, Kinds, LineBackground, LinePaint, LineSource, Potrace, Width};
+use crate::{Color, Dash, Hand, Kinds, LineBackground, LinePaint, LineSource, Potrace, Width};
 
 /// How lines are found and drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
@@ -102,6 +102,10 @@ pub struct Line {
     pub potrace: Potrace = Potrace::default(),
     /// How wide lines are.
     pub width: Width = Width::default(),
+    /// How a hand draws them; of methods `strokes` and `potrace`, and of drawings as curves.
+    pub hand: Hand = Hand::default(),
+    /// How they are cut into dashes; of the same methods.
+    pub dash: Dash = Dash::default(),
     /// How their colour minds what lies behind them.
     pub background: LineBackground = LineBackground::default(),
 }

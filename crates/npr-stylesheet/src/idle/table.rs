@@ -332,7 +332,8 @@ pub(super) const ENTRIES: &[Entry] = &[
     entry(
         &["line.split_angle_deg"],
         |c| c.is_frame() && !c.is_drawn_by(&[Strokes]) && !c.shows_cuts(),
-        "lines of method potrace show where they are cut only with line.width.short or with tapers at all ends",
+        "lines of method potrace show where they are cut only with line.hand, line.dash, line.width.short or with \
+         tapers at all ends",
     ),
     of_methods(&["line.angle_threshold_deg", "line.angle_softness"], |c| {
         !c.is_drawn_by(&[Angle])
@@ -361,9 +362,15 @@ pub(super) const ENTRIES: &[Entry] = &[
         ],
         |c| !c.is_drawn_by(&[Shape, Okuya, Hull, FilterHull, Edges, Strokes, Potrace]),
     ),
-    of_methods(&["line.width.short", "line.width.taper"], |c| {
-        !c.is_drawn_by(&[Strokes, Potrace])
-    }),
+    of_methods(
+        &[
+            "line.width.short",
+            "line.width.taper",
+            "line.hand",
+            "line.dash",
+        ],
+        |c| !c.is_drawn_by(&[Strokes, Potrace]),
+    ),
     of_methods(&["detect.scale"], |c| {
         !c.is_drawn_by(&[Shape, Okuya, Filter, FilterHull, Edges])
     }),
@@ -397,6 +404,21 @@ pub(super) const ENTRIES: &[Entry] = &[
         ],
         |c| !c.style.line.width.taper.is_on(),
         "line.width.taper.start and end are 0",
+    ),
+    entry(
+        &["line.hand.wave"],
+        |c| c.style.line.hand.wobble.value <= 0.0,
+        "line.hand.wobble is 0",
+    ),
+    entry(
+        &["line.hand.spread"],
+        |c| c.style.line.hand.copies <= 1,
+        "line.hand.copies is 1",
+    ),
+    entry(
+        &["line.dash.fit"],
+        |c| !c.style.line.dash.is_on(),
+        "line.dash.pattern has no gaps",
     ),
     entry(
         &["line.width.channel"],
