@@ -4,6 +4,7 @@
 //! and along: displacements are vectors, not distances along a normal, so corners stay as sharp as they are.
 
 use crate::arc::{Measured, has_course, measure_open};
+use crate::ends::{Meeting, meetings};
 use crate::seed::Seed;
 use npr_vector::stroke::{Stroke, StrokePoint};
 use rayon::prelude::*;
@@ -11,15 +12,18 @@ use rayon::prelude::*;
 /// Shortest wave, in pixels.
 const SHORTEST_WAVE_PX: f64 = 4.0;
 
-/// Points of a wave: between two of them a curve and its chord differ by two hundredths of the sway.
-const STEPS_PER_WAVE: f64 = 20.0;
+/// Points of a wave: between two of them a curve and its chord differ by about a hundredth of the sway.
+const STEPS_PER_WAVE: f64 = 40.0;
+
+/// Least distance between points that are added, in pixels.
+const LEAST_STEP_PX: f64 = 0.5;
 
 /// Knots of a wave. The course between random knots turns back after 2.7 of them in the mean (zeros of a cubic
 /// B-spline over white noise), so a wave takes about five; a little fewer leave room for the finer sway.
 const KNOTS_PER_WAVE: f64 = 4.0;
 
 /// Share of the finer sway, which is half as long.
-const FINE_SHARE: f64 = 0.25;
+const FINE_SHARE: f64 = 0.15;
 
 /// How much stronger the mean of knots is made: without it a line hardly ever comes near its greatest sway.
 const GAIN: f64 = 2.0;
@@ -71,7 +75,7 @@ impl Hand {
 
     /// Greatest distance between points of a stroke that sways.
     fn step(&self) -> f64 {
-        self.wave() / STEPS_PER_WAVE
+        (self.wave() / STEPS_PER_WAVE).max(LEAST_STEP_PX)
     }
 
     fn wave(&self) -> f64 {
@@ -104,11 +108,11 @@ impl Hand {
 
 /// Draws the visible strokes for which `is_drawn` is true as a hand does; each is followed by its copies.
 ///
-/// The first of them is the line itself. It ends where it ended, so lines that meet still do; a ring comes back to its
-/// start. Copies lie beside it, each a little turned and stretched, begin and end elsewhere, and sway for themselves;
-/// those of rings are open, and run on past where they began. All keep the stroke's id. What a short stroke sways and
-/// spreads is limited by its length. O(points + points added), on all threads, with the same result for any number of
-/// them.
+/// The first of them is the line itself. Where it ends on another line it follows that line's sway, and other ends stay
+/// where they are, so lines that meet still do; a ring comes back to its start. Copies lie beside it, each a little
+/// turned and stretched, begin and end elsewhere, and sway for themselves; those of rings are open, and run on past
+/// where they began. All keep the stroke's id. What a short stroke sways and spreads is limited by its length.
+/// O(points + points added + meetings of lines), on all threads, with the same result for any number of them.
 pub fn draw_by_hand(
     strokes: &mut Vec<Stroke>,
     hand: &Hand,
@@ -117,8 +121,27 @@ pub fn draw_by_hand(
     if hand.is_none() {
         return;
     }
-    let all = std::mem::take(strokes).into_par_iter();
-    let drawn = all.flat_map_iter(|stroke| {
+
+    // Settle how each line sways, and how far its ends go with the lines that they end on.
+    let lengths: Vec<f64> = strokes.par_iter().map(Stroke::length).collect();
+    let sways: Vec<Option<Sway>> = strokes
+        .par_iter()
+        .zip(&lengths)
+        .map(|(stroke, length)| {
+            let is_swayed = stroke.is_visible() && has_course(*length) && is_drawn(stroke);
+            (hand.sways() && is_swayed)
+                .then(|| Sway::new(hand, *length, Seed::new(stroke.id, 0), stroke.closed))
+        })
+        .collect();
+    let ends = match hand.sways() {
+        true => moved_ends(strokes, &lengths, &sways),
+        false => vec![[[0.0; 2]; 2]; strokes.len()],
+    };
+
+    // Draw them.
+    let of_strokes = sways.into_par_iter().zip(ends);
+    let all = std::mem::take(strokes).into_par_iter().zip(of_strokes);
+    let drawn = all.flat_map_iter(|(stroke, (sway, ends))| {
         let measured = match stroke.is_visible() && is_drawn(&stroke) {
             true => Measured::new(&stroke),
             false => None,
@@ -128,7 +151,7 @@ pub fn draw_by_hand(
         };
         let copies = (1..hand.copies()).filter_map(|copy| hand.copy(&stroke, &line, copy));
         let copies: Vec<Stroke> = copies.collect();
-        let own = hand.sways().then(|| hand.line(&stroke, &line));
+        let own = sway.map(|sway| hand.line(&stroke, &line, (&sway, ends)));
         std::iter::once(own.unwrap_or(stroke))
             .chain(copies)
             .collect()
@@ -136,21 +159,44 @@ pub fn draw_by_hand(
     *strokes = drawn.collect();
 }
 
+/// By how much the start and the end of every stroke move with the line that they end on.
+///
+/// Of the lines that meet an end the nearest counts, at a place where it does not end itself.
+fn moved_ends(strokes: &[Stroke], lengths: &[f64], sways: &[Option<Sway>]) -> Vec<[[f64; 2]; 2]> {
+    let found: Vec<Meeting> = meetings(strokes, lengths).collect();
+    let mut nearest: Vec<[Option<Meeting>; 2]> = vec![[None; 2]; strokes.len()];
+    for meeting in found {
+        let from_end = meeting.way.min(lengths[meeting.with] - meeting.way);
+        let goes_on = strokes[meeting.with].closed || from_end > meeting.distance.max(1.0);
+        let of_end = &mut nearest[meeting.stroke][meeting.side];
+        if goes_on && of_end.is_none_or(|last| meeting.distance < last.distance) {
+            *of_end = Some(meeting);
+        }
+    }
+    let by = |meeting: Option<Meeting>| {
+        let of_line = meeting.and_then(|met| Some((sways[met.with].as_ref()?, met.way)));
+        of_line.map_or([0.0; 2], |(sway, way)| sway.between_ends(way))
+    };
+    nearest.into_iter().map(|ends| ends.map(by)).collect()
+}
+
 impl Hand {
-    /// The line itself, which sways between its ends.
-    fn line(&self, stroke: &Stroke, line: &Measured) -> Stroke {
-        let sway = Sway::new(self, line.length(), Seed::new(stroke.id, 0), line.closed);
-        let fade = (0.5 * self.wave()).min(0.5 * line.length());
+    /// The line itself, which sways between its ends; these move by so much.
+    fn line(
+        &self,
+        stroke: &Stroke,
+        line: &Measured,
+        (sway, ends): (&Sway, [[f64; 2]; 2]),
+    ) -> Stroke {
         let moved = |(way, point): (f64, StrokePoint)| {
-            let from_end = way.min(line.length() - way);
-            let share = match line.closed {
-                true => 1.0,
-                false => ease(from_end / fade),
-            };
-            moved_by(point, sway.at(way).map(|px| px * share))
+            let by = sway.between_ends(way);
+            let of_ends = [way, line.length() - way].map(|from| 1.0 - sway.share(from));
+            let with_ends = |i: usize| by[i] + of_ends[0] * ends[0][i] + of_ends[1] * ends[1][i];
+            moved_by(point, [0, 1].map(with_ends))
         };
+        let points = line.in_steps(self.step());
         Stroke {
-            points: line.in_steps(self.step()).into_iter().map(moved).collect(),
+            points: points.into_iter().map(moved).collect(),
             ..*stroke
         }
     }
@@ -228,6 +274,9 @@ fn ease(share: f64) -> f64 {
 #[derive(Debug)]
 struct Sway {
     px: f64,
+    length: f64,
+    /// Pixels from an end over which the line comes to sway; none of rings.
+    fade: Option<f64>,
     coarse: Spline,
     fine: Spline,
 }
@@ -243,9 +292,22 @@ impl Sway {
         let fine = Spline::new(length, 0.5 * coarse.spacing, seed, (1, comes_back));
         Self {
             px: hand.wobble_px.min(SWAY_SHARE * length),
+            length,
+            fade: (!comes_back).then(|| 0.5 * hand.wave().min(length)),
             coarse,
             fine,
         }
+    }
+
+    /// Share of the sway at a distance from an end, along the line.
+    fn share(&self, from_end: f64) -> f64 {
+        self.fade.map_or(1.0, |fade| ease(from_end / fade))
+    }
+
+    /// As [`Sway::at`], but none at the ends of a line.
+    fn between_ends(&self, way: f64) -> [f64; 2] {
+        let share = self.share(way.min(self.length - way));
+        self.at(way).map(|px| px * share)
     }
 
     /// The displacement, in pixels, `way` pixels from the start; shorter than the greatest sway.

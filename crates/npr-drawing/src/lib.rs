@@ -34,6 +34,7 @@ mod clip;
 mod color_runs;
 pub mod dash;
 pub mod drawing;
+mod ends;
 pub mod fill;
 pub mod fit;
 pub mod hand;

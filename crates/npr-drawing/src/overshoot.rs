@@ -1,8 +1,9 @@
 //! Strokes whose ends run on beyond where the line ends, as construction lines do, or stop short of it.
 
 use crate::arc::Measured;
+use crate::ends::is_cut_off;
 use crate::seed::Seed;
-use npr_vector::stroke::{Stroke, StrokePoint};
+use npr_vector::stroke::Stroke;
 use rayon::prelude::*;
 
 /// Greatest share of a stroke's length by which an end runs on: what is short stays short.
@@ -13,9 +14,6 @@ const SHORT_SHARE: f64 = 1.0 / 3.0;
 
 /// Least share of the lengths asked for.
 const LEAST_SHARE: f64 = 0.5;
-
-/// Distance, in pixels, from the border of the picture within which an end is cut off by it.
-const BORDER_PX: f64 = 1.0;
 
 /// How far ends of strokes lie from the ends of their lines.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -71,7 +69,7 @@ pub fn move_ends(
             let seed = Seed::new(stroke.id, 0);
             let ends = [stroke.points.first(), stroke.points.last()];
             let by = [0, 1].map(|end| match ends[end] {
-                Some(point) if !is_cut(point, size) => {
+                Some(point) if !is_cut_off(point.position, size) => {
                     overshoot.of_end(seed, end as u32, line.length())
                 }
                 _ => 0.0,
@@ -79,15 +77,6 @@ pub fn move_ends(
             stroke.points = line.with_ends(by);
         }
     });
-}
-
-/// Whether the border of the picture cuts a line off at a point.
-fn is_cut(point: &StrokePoint, size: [u32; 2]) -> bool {
-    let is_at_side = |i: usize| {
-        let at = point.position[i];
-        at <= BORDER_PX || at >= f64::from(size[i]) - BORDER_PX
-    };
-    is_at_side(0) || is_at_side(1)
 }
 
 #[cfg(test)]

@@ -6,11 +6,11 @@ use crate::overlay::style_table;
 style_table! {
 /// How a hand draws lines: it sways, draws them more than once, and does not stop where they end.
 pub struct Hand {
-    /// Greatest distance that a line sways from its place; default 0, a ruler. 2 a calm hand, 5 a nervous one, 12 a
+    /// Greatest distance that a line sways from its place; default 0, a ruler. 2 a calm hand, 5 a loose one, 12 a
     /// child's. Short lines sway less, and lines that end on each other still do.
     pub wobble: Length = Length::ref_px(0.0),
-    /// About how long its waves are; default 40. 15 a tremor, 150 a slow arm.
-    pub wave: Length = Length::ref_px(40.0),
+    /// About how long its waves are; default 100. 30 a tremor, 300 a slow arm.
+    pub wave: Length = Length::ref_px(100.0),
     /// How often each line is drawn, 1..8; default 1. 2 a firm sketch, 4 a search for the line.
     #[schemars(range(min = 1, max = 8))]
     pub copies: u32 = 1,

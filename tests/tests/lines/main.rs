@@ -4,5 +4,6 @@
 
 mod contour_growth;
 mod curves_in_frames;
+mod expression;
 mod outlines;
 mod sampled_visibility;

@@ -105,6 +105,35 @@ fn each_line_and_each_copy_sways_for_itself() {
     }
 }
 
+/// A line that ends on another one still does once both sway; the other way round, a free end stays.
+#[test]
+fn ends_follow_the_line_that_they_lie_on() {
+    let wild = Hand {
+        wobble_px: 12.0,
+        wave_px: 150.0,
+        ..CALM
+    };
+    let (mut farthest, mut strayed): (f64, f64) = (0.0, 0.0);
+    for id in 0..200 {
+        let at = 200.0 + 3.0 * id as f64;
+        let branch = Stroke {
+            id: 1000 + id,
+            ..stroke_of(&[[at, 50.0], [at + 30.0, 250.0]])
+        };
+        let both = drawn(vec![line(id), branch.clone()], &wild);
+        let [first, last] = [&both[1].points[0], both[1].points.last().unwrap()];
+        assert_eq!(last.position, branch.points[1].position);
+        farthest = farthest.max(distance_from(&both[0], first.position));
+        strayed = strayed.max(apart(first.position, branch.points[0].position));
+        // Alone it keeps both ends.
+        let alone = drawn(vec![branch.clone()], &wild);
+        assert_eq!(alone[0].points[0].position, branch.points[0].position);
+    }
+    // Chords of the swayed line lie beside its curve: second derivatives of both splines times the step squared, by 8.
+    assert!(farthest < 0.17, "{farthest}");
+    assert!(strayed > 8.0, "{strayed}");
+}
+
 #[test]
 fn copies_of_a_ruler_are_straight_and_lie_beside() {
     let ruled = Hand {
@@ -202,9 +231,12 @@ proptest! {
             let own = &new[0];
             prop_assert!(new.iter().all(|copy| copy.id == old.id));
             prop_assert!(own.points.iter().all(|p| distance_from(old, p.position) <= wobble + 1e-6));
-            if !old.closed {
-                prop_assert_eq!(own.points[0].position, old.points[0].position);
-                prop_assert_eq!(own.points.last().unwrap().position, old.points.last().unwrap().position);
+            let others = || strokes.iter().filter(|other| other.id != old.id || old.points.len() > 2);
+            let ends = [old.points.first().zip(own.points.first()), old.points.last().zip(own.points.last())];
+            for (before, after) in ends.into_iter().flatten().filter(|_| !old.closed) {
+                // An end that meets no line, its own included, stays.
+                let is_free = others().all(|other| other.id != old.id && distance_from(other, before.position) > 1.6);
+                prop_assert!(!is_free || after.position == before.position);
             }
             for copy in &new[1..] {
                 // Its ends may also lie three spreads farther on.
