@@ -35,11 +35,12 @@ pub(crate) struct Meeting {
 /// All meetings of ends with visible lines, in an order that does not depend on the number of threads; `lengths` are
 /// those of the strokes.
 ///
-/// A line meets ends within half its width. A stroke's own far side counts as another line. One line may meet an end
-/// in more than one of its pieces.
+/// A line meets ends within half its width, `reach` times. A stroke's own far side counts as another line. One line may
+/// meet an end in more than one of its pieces.
 pub(crate) fn meetings<'a>(
     strokes: &'a [Stroke],
     lengths: &'a [f64],
+    reach: f64,
 ) -> impl ParallelIterator<Item = Meeting> + 'a {
     let ends = Ends::new(strokes);
     let visible = strokes.par_iter().enumerate();
@@ -49,7 +50,7 @@ pub(crate) fn meetings<'a>(
         let mut found = Vec::new();
         for (a, b) in pieces(stroke) {
             let next = along + distance(a.position, b.position);
-            let touch = touch_of(a.width.max(b.width));
+            let touch = reach * touch_of(a.width.max(b.width));
             ends.near(a.position, b.position, touch, |end| {
                 let is_own = end.stroke as usize == number
                     && !stroke.closed

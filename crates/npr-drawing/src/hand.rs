@@ -13,14 +13,14 @@ use rayon::prelude::*;
 const SHORTEST_WAVE_PX: f64 = 4.0;
 
 /// Points of a wave: between two of them a curve and its chord differ by about a hundredth of the sway.
-const STEPS_PER_WAVE: f64 = 40.0;
+const STEPS_PER_WAVE: f64 = 50.0;
 
 /// Least distance between points that are added, in pixels.
 const LEAST_STEP_PX: f64 = 0.5;
 
-/// Knots of a wave. The course between random knots turns back after 2.7 of them in the mean (zeros of a cubic
-/// B-spline over white noise), so a wave takes about five; a little fewer leave room for the finer sway.
-const KNOTS_PER_WAVE: f64 = 4.0;
+/// Knots of a wave: a cubic B-spline over white noise is 0 every 2.7 knots in the mean, and twice a wave; the finer sway
+/// adds a few zeros.
+const KNOTS_PER_WAVE: f64 = 5.0;
 
 /// Share of the finer sway, which is half as long.
 const FINE_SHARE: f64 = 0.15;
@@ -42,6 +42,10 @@ const END_SPREADS: f64 = 3.0;
 
 /// By how many times the spread a copy of a ring runs on past its start, at most.
 const OVERLAP_SPREADS: f64 = 10.0;
+
+/// By how many times half its width a line takes ends along: creases stop two or three pixels before the outline that
+/// they run into, which nobody sees until it sways.
+const REACH: f64 = 3.0;
 
 /// Most copies of a stroke.
 pub const COPIES_MAX: u32 = 8;
@@ -163,7 +167,7 @@ pub fn draw_by_hand(
 ///
 /// Of the lines that meet an end the nearest counts, at a place where it does not end itself.
 fn moved_ends(strokes: &[Stroke], lengths: &[f64], sways: &[Option<Sway>]) -> Vec<[[f64; 2]; 2]> {
-    let found: Vec<Meeting> = meetings(strokes, lengths).collect();
+    let found: Vec<Meeting> = meetings(strokes, lengths, REACH).collect();
     let mut nearest: Vec<[Option<Meeting>; 2]> = vec![[None; 2]; strokes.len()];
     for meeting in found {
         let from_end = meeting.way.min(lengths[meeting.with] - meeting.way);
