@@ -17,11 +17,11 @@ pub struct Hand {
     /// Greatest distance of further copies from the line; default 2. 1 looks like one thick line, 8 like a loose sketch.
     /// They begin and end elsewhere by up to three times as much.
     pub spread: Length = Length::ref_px(2.0),
-    /// Length by which ends of lines run on straight, by half of it at least; default 0. 6 a quick pen, 40 construction
-    /// lines. `split_angle_deg` gives ends at corners, too.
+    /// Length by which ends of lines run on straight, by half of it at least and a quarter of the line at most; default
+    /// 0. 6 a quick pen, 40 construction lines. `split_angle_deg` gives ends at corners, too.
     pub overshoot: Length = Length::ref_px(0.0),
-    /// Length by which ends of lines stop short, by half of it at least; default 0. 4 broken lines, 15 hints of them.
-    /// With an overshoot too, chance decides for each end.
+    /// Length by which ends of lines stop short, by half of it at least and a third of the line at most; default 0. 4
+    /// broken lines, 15 hints of them. With an overshoot too, chance decides for each end.
     pub undershoot: Length = Length::ref_px(0.0),
 }
 }

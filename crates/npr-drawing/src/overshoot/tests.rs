@@ -91,7 +91,7 @@ proptest! {
                 continue;
             }
             let gained = new.length() - old.length();
-            let most = [0.5, 1.0 / 3.0][usize::from(is_short)] * old.length();
+            let most = [0.25, 1.0 / 3.0][usize::from(is_short)] * old.length();
             let each = [0.5 * px, px].map(|px| px.min(most));
             let gained = if is_short { -gained } else { gained };
             // A line that turns back within its last pixels has no way on.
