@@ -4,7 +4,9 @@
 //! [`artwork`] decides what a file shows of it, in which layers, and on which page; [`svg`], [`pdf`] and [`drawing`]
 //! write that, [`json`] the strokes themselves; [`ink`] gives points for the pass that inks a frame. On the way
 //! [`fit`] makes cubic curves of points, [`outline`] the outline of a stroke whose width varies, and [`plot`] an order
-//! with short ways in the air. [`taper`] thins strokes towards their ends, [`pressure`] by curves, [`fill`] makes closed regions of what lines
+//! with short ways in the air. [`overshoot`] lets strokes run on beyond their ends, [`pressure`] makes them swell and
+//! thin out by curves, [`taper`] thins them at their ends, [`hand`] lets them sway and draws them more than once, and
+//! [`dash`] cuts them. [`fill`] makes closed regions of what lines
 //! enclose, [`lettering`] outlines of words, and [`centreline`] files of centre lines.
 //!
 //! ```
@@ -26,22 +28,30 @@
 //! assert!(svg.starts_with(b"<svg"));
 //! ```
 
+mod arc;
 pub mod artwork;
 pub mod centreline;
 mod clip;
 mod color_runs;
+pub mod dash;
 pub mod drawing;
+mod ends;
 pub mod fill;
 pub mod fit;
+pub mod hand;
 pub mod ink;
 pub mod json;
 pub mod lettering;
 mod mark;
 mod near;
 pub mod outline;
+pub mod overshoot;
 mod page;
 pub mod pdf;
 pub mod plot;
 pub mod pressure;
+mod seed;
 pub mod svg;
 pub mod taper;
+#[cfg(test)]
+mod test_strokes;

@@ -4,26 +4,14 @@
 //! file stops. Elsewhere a line goes on or ends on another one, and there a pen is not lifted.
 
 use crate::color_runs::point_between;
-use crate::fit::distance2_to_segment;
-use foldhash::fast::FixedState;
-use kurbo::Point;
+use crate::ends::{Meeting, is_cut_off, meetings};
 use npr_vector::mesh_lines::run::distance;
 use npr_vector::stroke::{Stroke, StrokePoint};
 use rayon::prelude::*;
-use std::collections::HashMap;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Steps in which the width changes along a taper.
 const STEPS: usize = 12;
-
-/// Least distance, in pixels, at which an end meets a line, however thin this is.
-const TOUCH_PX: f64 = 1.0;
-
-/// Greatest distance, in pixels, at which an end meets a line, however wide this is.
-const FARTHEST_TOUCH_PX: f64 = 64.0;
-
-/// Distance, in pixels, from the border of the picture within which an end is cut off by it.
-const BORDER_PX: f64 = 1.0;
 
 /// How strokes thin out.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -166,145 +154,22 @@ const TOO_NEAR_PX: f64 = 1e-3;
 
 /// For the start and the end of every stroke whether a visible line or the border of the picture meets it.
 fn met_ends(strokes: &[Stroke], lengths: &[f64], size: [u32; 2]) -> Vec<[bool; 2]> {
-    // Sort the ends into cells of the picture.
-    let ends = Ends::new(strokes);
-
     // Note those that lines pass.
     let is_met: Vec<[AtomicBool; 2]> = strokes.iter().map(|_| Default::default()).collect();
-    let visible = strokes.par_iter().enumerate();
-    let visible = visible.filter(|(_, stroke)| stroke.is_visible());
-    visible.for_each(|(number, stroke)| {
-        let mut along = 0.0;
-        for (a, b) in pieces(stroke) {
-            let next = along + distance(a.position, b.position);
-            let touch = touch_of(a.width.max(b.width));
-            ends.near(a.position, b.position, touch, |end| {
-                let is_own = end.stroke as usize == number
-                    && !stroke.closed
-                    && end.arc_from(along, next, lengths[number]) < 4.0 * touch;
-                let places = [end.position, a.position, b.position];
-                let [place, a, b] = places.map(|[x, y]| Point::new(x, y));
-                if !is_own && distance2_to_segment(place, a, b) <= touch * touch {
-                    is_met[end.stroke as usize][end.side].store(true, Ordering::Relaxed);
-                }
-            });
-            along = next;
-        }
+    meetings(strokes, lengths, 1.0).for_each(|Meeting { stroke, side, .. }| {
+        is_met[stroke][side].store(true, Ordering::Relaxed);
     });
 
     // Add those at the border.
-    let is_cut = |position: [f64; 2]| {
-        let side =
-            |i: usize| position[i] <= BORDER_PX || position[i] >= f64::from(size[i]) - BORDER_PX;
-        side(0) || side(1)
-    };
     let all = strokes.iter().zip(is_met);
     all.map(|(stroke, is_met)| {
         let ends = [stroke.points.first(), stroke.points.last()];
         [0, 1].map(|end| {
             is_met[end].load(Ordering::Relaxed)
-                || ends[end].is_none_or(|point| is_cut(point.position))
+                || ends[end].is_none_or(|point| is_cut_off(point.position, size))
         })
     })
     .collect()
-}
-
-/// How far from its middle a line meets ends, in pixels.
-fn touch_of(width: f64) -> f64 {
-    (0.5 * width).clamp(TOUCH_PX, FARTHEST_TOUCH_PX)
-}
-
-/// The straight pieces of a stroke.
-fn pieces(stroke: &Stroke) -> impl Iterator<Item = (&StrokePoint, &StrokePoint)> {
-    let points = &stroke.points;
-    let closing =
-        (stroke.closed && points.len() > 1).then(|| (&points[points.len() - 1], &points[0]));
-    let open = points.windows(2).map(|pair| (&pair[0], &pair[1]));
-    open.chain(closing)
-}
-
-/// An end of an open stroke.
-#[derive(Debug, Clone, Copy)]
-struct End {
-    stroke: u32,
-    /// 0 for the start, 1 for the end.
-    side: usize,
-    position: [f64; 2],
-}
-
-impl End {
-    /// The way along its own stroke, `length` long, to a piece of it.
-    fn arc_from(&self, from: f64, to: f64, length: f64) -> f64 {
-        match self.side {
-            0 => from,
-            _ => length - to,
-        }
-    }
-}
-
-/// Width of a cell, in pixels.
-const CELL_PX: f64 = 16.0;
-
-/// The ends of strokes by cells of the picture.
-struct Ends {
-    cells: HashMap<[i32; 2], Vec<End>, FixedState>,
-}
-
-impl Ends {
-    fn new(strokes: &[Stroke]) -> Self {
-        let mut cells: HashMap<[i32; 2], Vec<End>, FixedState> = HashMap::default();
-        for (number, stroke) in (0..).zip(strokes) {
-            if stroke.closed || !stroke.is_visible() {
-                continue;
-            }
-            let ends = [stroke.points.first(), stroke.points.last()];
-            for (side, point) in ends.into_iter().enumerate() {
-                if let Some(point) = point {
-                    let end = End {
-                        stroke: number,
-                        side,
-                        position: point.position,
-                    };
-                    cells.entry(cell_of(point.position)).or_default().push(end);
-                }
-            }
-        }
-        Self { cells }
-    }
-
-    /// Calls `visit` with all ends within `reach` of a straight piece, and with some around; none of pieces that are
-    /// not finite.
-    fn near(&self, a: [f64; 2], b: [f64; 2], reach: f64, mut visit: impl FnMut(&End)) {
-        // Walk along the piece, a cell's width a step.
-        let length = distance(a, b);
-        if length.is_nan() || length > LONGEST_PX {
-            return;
-        }
-        let steps = (length / CELL_PX).ceil().max(1.0) as usize;
-        let at = |step: usize| {
-            let share = step as f64 / steps as f64;
-            [0, 1].map(|i| a[i] + (b[i] - a[i]) * share)
-        };
-        for step in 0..steps {
-            // Visit the cells that it comes near in this step.
-            let (from, to) = (at(step), at(step + 1));
-            let low = cell_of([0, 1].map(|i| from[i].min(to[i]) - reach));
-            let high = cell_of([0, 1].map(|i| from[i].max(to[i]) + reach));
-            for y in low[1]..=high[1] {
-                for x in low[0]..=high[0] {
-                    let there = self.cells.get(&[x, y]);
-                    there.into_iter().flatten().for_each(&mut visit);
-                }
-            }
-        }
-    }
-}
-
-/// Longest piece of a line, in pixels, that is looked at.
-const LONGEST_PX: f64 = 1e6;
-
-fn cell_of(position: [f64; 2]) -> [i32; 2] {
-    position.map(|v| (v / CELL_PX).floor() as i32)
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 mod assembly;
 mod colors;
+mod expression;
 mod finder;
 mod image;
 mod model;

@@ -37,11 +37,13 @@ mod brush;
 mod check;
 mod color;
 mod contradiction;
+mod dash;
 mod derived_style;
 mod detect;
 mod error;
 mod former;
 mod glob;
+mod hand;
 mod highlight;
 mod id_map;
 mod id_region;
@@ -83,8 +85,10 @@ pub use beam::{Beam, BeamOverlap, BeamStop, RuleBeam};
 pub use blend::Blend;
 pub use brush::{BrushMapping, LineBrush, Paper, RuleLineBrush};
 pub use color::{Color, ColorError};
+pub use dash::Dash;
 pub use detect::{DepthTest, Detect, IdTest, MASK_LINE_PX, NormalTest, WidthWarning, width_rule};
 pub use error::{Problem, SourceLocation, StyleError};
+pub use hand::Hand;
 pub use highlight::{
     Back, Edge, Highlight, HighlightModel, RuleBack, RuleHighlight, RuleStreak, Streak,
 };

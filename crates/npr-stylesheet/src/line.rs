@@ -4,7 +4,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::overlay::style_table;
-use crate::{Color, Kinds, LineBackground, LineBrush, LinePaint, LineSource, Potrace, Width};
+use crate::{
+    Color, Dash, Hand, Kinds, LineBackground, LineBrush, LinePaint, LineSource, Potrace, Width,
+};
 
 /// How lines are found and drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
@@ -104,6 +106,10 @@ pub struct Line {
     pub width: Width = Width::default(),
     /// What strokes are drawn with.
     pub brush: LineBrush = LineBrush::default(),
+    /// How a hand draws them; of methods `strokes` and `potrace`, and of drawings as curves.
+    pub hand: Hand = Hand::default(),
+    /// How they are cut into dashes; of the same methods.
+    pub dash: Dash = Dash::default(),
     /// How their colour minds what lies behind them.
     pub background: LineBackground = LineBackground::default(),
 }

@@ -228,6 +228,21 @@ const ENABLING: &[(&str, &[&str], &str)] = &[
         "lines of the scene end on each other",
     ),
     (
+        "line.hand.wave",
+        &["line.hand.wobble='4px'"],
+        "lines that do not sway have no waves",
+    ),
+    (
+        "line.hand.spread",
+        &["line.hand.copies=2"],
+        "the line itself is not spread",
+    ),
+    (
+        "line.dash",
+        &["line.dash.pattern=['6px', '5px']"],
+        "lines are whole by default",
+    ),
+    (
         "detect.depth",
         &[
             "detect.normal.on=false",

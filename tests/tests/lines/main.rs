@@ -5,5 +5,6 @@
 mod brushes_in_frames;
 mod contour_growth;
 mod curves_in_frames;
+mod expression;
 mod outlines;
 mod sampled_visibility;

@@ -2,6 +2,7 @@
 
 use super::assembly::Assembly;
 use super::colors::{ColorInput, StrokeColors};
+use super::expression::Expression;
 use super::finder::{Finder, OnProcessor};
 use super::options::{LineModelOptions, LineOptions};
 use super::paint::Paint;
@@ -28,12 +29,11 @@ use npr_core::camera::Camera;
 use npr_core::crease::CreaseFrom;
 use npr_core::geometry::Part;
 use npr_core::line_source::LineSource;
-use npr_drawing::pressure::{Curve, Pressure, press_strokes};
-use npr_drawing::taper::{Taper, taper_strokes};
+use npr_drawing::pressure::{Curve, Pressure};
 use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_mesh::shape::Preparation;
 use npr_scene::Scene;
-use npr_stylesheet::{DepthSpace, Length, Look, Style, TaperEnds, WidthStop};
+use npr_stylesheet::{DepthSpace, Look, Style, WidthStop};
 use npr_vector::mesh_lines::bvh::FaceTree;
 use npr_vector::mesh_lines::contour::EdgeContours;
 use npr_vector::mesh_lines::draw::{
@@ -378,9 +378,8 @@ impl LineModel {
         };
         let is_of_part = |stroke: &Stroke| (stroke.surface as usize) < self.parts.len();
         let pressure = self.pressure_of(style, &projector);
-        press_strokes(&mut strokes, &pressure, is_of_part);
-        let taper = taper_of(style, self.px(options));
-        taper_strokes(&mut strokes, options.size, &taper, is_of_part);
+        let expression = Expression::new(style, self.px(options), pressure);
+        expression.draw(&mut strokes, options.size, is_of_part)?;
         check_points(&strokes)?;
         let mut surfaces = paint.into_surfaces(&self.parts);
         let object_number = surfaces.iter().map(|s| s.object_number + 1).max();
@@ -634,24 +633,13 @@ fn notices_of_view(prepared: Option<&Prepared>, left_out: usize) -> Vec<String> 
     notices
 }
 
-/// How strokes thin out in a picture: lengths in pixels, as `px` resolves them.
-fn taper_of(style: &Style, [height, dpi, world]: [f32; 3]) -> Taper {
-    let of_style = &style.line.width.taper;
-    let px = |length: Length| f64::from(length.to_px(height, dpi, world));
-    Taper {
-        lengths_px: [of_style.start, of_style.end].map(px),
-        short_px: px(style.line.width.short),
-        share: f64::from(of_style.share),
-        tip: f64::from(of_style.tip),
-        at_all_ends: of_style.ends == TaperEnds::All,
-    }
+fn check_points(strokes: &[Stroke]) -> Result<(), RenderError> {
+    let points = strokes.iter().map(|stroke| stroke.points.len() as u64);
+    check_count(points.sum())
 }
 
-fn check_points(strokes: &[Stroke]) -> Result<(), RenderError> {
-    let count: u64 = strokes
-        .iter()
-        .map(|stroke| stroke.points.len() as u64)
-        .sum();
+/// Refuses more points of strokes than a drawing may have.
+pub(super) fn check_count(count: u64) -> Result<(), RenderError> {
     if count > POINT_LIMIT {
         return Err(RenderError::TooMany {
             what: "points of strokes",

@@ -172,9 +172,9 @@ impl<'a> Case<'a> {
 
     /// Whether a stroke that is cut in two looks otherwise than one that is not.
     pub fn shows_cuts(&self) -> bool {
-        let width = &self.style.line.width;
-        let tapers = width.taper.is_on() && width.taper.ends == TaperEnds::All;
-        tapers || width.short.value > 0.0
+        let line = &self.style.line;
+        let tapers = line.width.taper.is_on() && line.width.taper.ends == TaperEnds::All;
+        tapers || line.width.short.value > 0.0 || line.hand.is_on() || line.dash.is_on()
     }
 
     /// Whether any part may be hatched.

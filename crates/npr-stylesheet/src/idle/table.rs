@@ -338,7 +338,8 @@ pub(super) const ENTRIES: &[Entry] = &[
     entry(
         &["line.split_angle_deg"],
         |c| c.is_frame() && !c.is_drawn_by(&[Strokes]) && !c.shows_cuts(),
-        "lines of method potrace show where they are cut only with line.width.short or with tapers at all ends",
+        "lines of method potrace show where they are cut only with line.hand, line.dash, line.width.short or with \
+         tapers at all ends",
     ),
     of_methods(&["line.angle_threshold_deg", "line.angle_softness"], |c| {
         !c.is_drawn_by(&[Angle])
@@ -373,6 +374,8 @@ pub(super) const ENTRIES: &[Entry] = &[
             "line.width.taper",
             "line.width.pressure",
             "line.width.depth",
+            "line.hand",
+            "line.dash",
         ],
         |c| !c.is_drawn_by(&[Strokes, Potrace]),
     ),
@@ -448,6 +451,21 @@ pub(super) const ENTRIES: &[Entry] = &[
         &["paper"],
         |c| !c.any(|look| !look.line_brush.is_pen() && look.line_brush.manner().grain > 0.0),
         "line.brush.grain is 0",
+    ),
+    entry(
+        &["line.hand.wave"],
+        |c| c.style.line.hand.wobble.value <= 0.0,
+        "line.hand.wobble is 0",
+    ),
+    entry(
+        &["line.hand.spread"],
+        |c| c.style.line.hand.copies <= 1,
+        "line.hand.copies is 1",
+    ),
+    entry(
+        &["line.dash.fit"],
+        |c| !c.style.line.dash.is_on(),
+        "line.dash.pattern has no gaps",
     ),
     entry(
         &["line.width.channel"],

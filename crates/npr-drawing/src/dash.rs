@@ -1,0 +1,192 @@
+//! Strokes cut into dashes and dots.
+
+use crate::arc::{Measured, has_course};
+use npr_vector::stroke::Stroke;
+use rayon::prelude::*;
+
+/// Shortest pattern, in pixels: finer ones are grey, and lines stay whole.
+const SHORTEST_PX: f64 = 0.25;
+
+/// Length, in pixels, of the piece of line that a dot is: its round ends make it one.
+const DOT_PX: f64 = 0.1;
+
+/// Distance, in pixels, under which two dashes are one, and under which a dash cut off at an end is none.
+const TOO_NEAR_PX: f64 = 1e-3;
+
+/// How strokes are cut into dashes.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Dash {
+    /// Pixels of ink, of gap, of ink and so on; none for whole strokes. Ink without length is a dot. Of an odd number
+    /// of lengths ink and gap change places every time, as in SVG.
+    pub pattern_px: Vec<f64>,
+    /// Whether the pattern is stretched to end where strokes do: open ones then begin and end with half of the first
+    /// dash, and rings have a whole number of patterns.
+    pub fit: bool,
+}
+
+impl Dash {
+    /// Whether it leaves every stroke as it is.
+    pub fn is_none(&self) -> bool {
+        self.period().is_none()
+    }
+
+    /// The pattern as pairs of ink and gap, and its whole length; `None` if there is nothing to cut.
+    fn period(&self) -> Option<(Vec<[f64; 2]>, f64)> {
+        let twice = self.pattern_px.iter().chain(&self.pattern_px).copied();
+        let count = match self.pattern_px.len() % 2 {
+            0 => self.pattern_px.len(),
+            _ => 2 * self.pattern_px.len(),
+        };
+        let lengths: Vec<f64> = twice.take(count).collect();
+        let pairs: Vec<[f64; 2]> = lengths
+            .chunks_exact(2)
+            .map(|two| [two[0], two[1]])
+            .collect();
+        let length: f64 = lengths.iter().sum();
+        let is_cut = lengths.iter().all(|px| *px >= 0.0)
+            && pairs.iter().any(|[_, gap]| *gap > TOO_NEAR_PX)
+            && length >= SHORTEST_PX
+            && length.is_finite();
+        is_cut.then_some((pairs, length))
+    }
+
+    /// Most points that strokes have once [`cut_to_dashes`] has cut them. O(points).
+    pub fn points_after(&self, strokes: &[Stroke], is_cut: impl Fn(&Stroke) -> bool + Sync) -> u64 {
+        let period = self.period();
+        let of_stroke = |stroke: &Stroke| {
+            let (own, length) = (stroke.points.len() as u64, stroke.length());
+            let stays = !stroke.is_visible() || !has_course(length) || !is_cut(stroke);
+            match &period {
+                // Stretched patterns are shorter by a third at most.
+                Some((pairs, period)) if !stays => {
+                    let periods = (1.5 * length / period) as u64 + 2;
+                    own + periods * 2 * pairs.len() as u64
+                }
+                _ => own,
+            }
+        };
+        strokes.par_iter().map(of_stroke).sum()
+    }
+}
+
+/// Cuts the visible strokes for which `is_cut` is true into dashes, which keep their stroke's id.
+///
+/// Strokes shorter than the pattern stay whole. Where a dash of a ring goes through its start it is one. Lengths are
+/// those of the line's middle: round ends make dashes longer by the line's width, and gaps shorter. O(points + dashes
+/// log points), on all threads, with the same result for any number of them.
+pub fn cut_to_dashes(
+    strokes: &mut Vec<Stroke>,
+    dash: &Dash,
+    is_cut: impl Fn(&Stroke) -> bool + Sync,
+) {
+    let Some((pairs, period)) = dash.period() else {
+        return;
+    };
+    let all = std::mem::take(strokes).into_par_iter();
+    let cut = all.flat_map_iter(|stroke| {
+        let measured = match stroke.is_visible() && is_cut(&stroke) {
+            true => Measured::new(&stroke),
+            false => None,
+        };
+        let Some(line) = measured.filter(|line| line.length() >= period) else {
+            return vec![stroke];
+        };
+        let inked = match dash.fit {
+            true => fitted(&pairs, period, &line),
+            false => from_start(&pairs, &line),
+        };
+        let dashes = inked.into_iter().map(|[from, to]| Stroke {
+            points: line.part(from, to),
+            closed: false,
+            ..stroke
+        });
+        dashes.collect()
+    });
+    *strokes = cut.collect();
+}
+
+/// Where a line is inked if the pattern is stretched to begin and end in the middle of its first dash.
+fn fitted(pairs: &[[f64; 2]], period: f64, line: &Measured) -> Vec<[f64; 2]> {
+    let length = line.length();
+    let count = (length / period).round().max(1.0);
+    let scale = length / (count * period);
+    let half = 0.5 * pairs[0][0] * scale;
+    let mut inked = Inked::default();
+    for number in 0..count as u32 {
+        let mut at = length * f64::from(number) / count - half;
+        for [ink, gap] in pairs {
+            inked.add(at, at + ink * scale);
+            at += (ink + gap) * scale;
+        }
+    }
+    if !line.closed {
+        inked.add(length - half, length + half);
+    }
+    inked.on(line)
+}
+
+/// Where a line is inked if the pattern begins at its start, and breaks off at its end.
+fn from_start(pairs: &[[f64; 2]], line: &Measured) -> Vec<[f64; 2]> {
+    let mut inked = Inked::default();
+    let mut at = 0.0;
+    for [ink, gap] in pairs.iter().cycle() {
+        if at > line.length() {
+            break;
+        }
+        inked.add(at, at + ink);
+        at += ink + gap;
+    }
+    inked.on(line)
+}
+
+/// Ranges of ink in order, of which none touches the one before.
+#[derive(Debug, Default)]
+struct Inked(Vec<[f64; 2]>);
+
+impl Inked {
+    fn add(&mut self, from: f64, to: f64) {
+        match self.0.last_mut() {
+            Some(last) if from <= last[1] + TOO_NEAR_PX => last[1] = to,
+            _ => self.0.push([from, to]),
+        }
+    }
+
+    /// The ranges that lie on a line, dots with a length.
+    fn on(mut self, line: &Measured) -> Vec<[f64; 2]> {
+        let length = line.length();
+        let [low, high] = match line.closed {
+            // The first dash of a ring may begin before its start.
+            true => [f64::NEG_INFINITY, length],
+            false => [0.0, length],
+        };
+
+        // Cut off what lies beyond the ends, and give dots a length.
+        let mut ranges: Vec<[f64; 2]> = Vec::with_capacity(self.0.len());
+        for [from, to] in self.0.drain(..) {
+            let is_dot = to - from < DOT_PX;
+            let (from, to) = match is_dot {
+                true => {
+                    let middle = 0.5 * (from + to);
+                    let from = (middle - 0.5 * DOT_PX).clamp(low, high - DOT_PX);
+                    (from, from + DOT_PX)
+                }
+                false => (from.max(low), to.min(high)),
+            };
+            if to - from > TOO_NEAR_PX {
+                ranges.push([from, to]);
+            }
+        }
+
+        // Join the last dash of a ring to the first one.
+        if let (true, [first, .., last]) = (line.closed, &mut ranges[..])
+            && last[1] + TOO_NEAR_PX >= first[0] + length
+        {
+            first[0] = last[0] - length;
+            ranges.pop();
+        }
+        ranges
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,182 @@
+//! Ends of strokes, and where other lines meet them.
+
+use crate::fit::distance2_to_segment;
+use foldhash::fast::FixedState;
+use kurbo::Point;
+use npr_vector::mesh_lines::run::distance;
+use npr_vector::stroke::{Stroke, StrokePoint};
+use rayon::prelude::*;
+use std::collections::HashMap;
+
+/// Least distance, in pixels, at which an end meets a line, however thin this is.
+const TOUCH_PX: f64 = 1.0;
+
+/// Greatest distance, in pixels, at which an end meets a line, however wide this is.
+const FARTHEST_TOUCH_PX: f64 = 64.0;
+
+/// Distance, in pixels, from the border of the picture within which an end is cut off by it.
+const BORDER_PX: f64 = 1.0;
+
+/// A place where a visible line meets an end.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Meeting {
+    /// The stroke whose end it is.
+    pub stroke: usize,
+    /// 0 for its start, 1 for its end.
+    pub side: usize,
+    /// The stroke that meets it; its own where this comes back.
+    pub with: usize,
+    /// Pixels along that stroke from its start.
+    pub way: f64,
+    /// Their distance, in pixels.
+    pub distance: f64,
+}
+
+/// All meetings of ends with visible lines, in an order that does not depend on the number of threads; `lengths` are
+/// those of the strokes.
+///
+/// A line meets ends within half its width, `reach` times. A stroke's own far side counts as another line. One line may
+/// meet an end in more than one of its pieces.
+pub(crate) fn meetings<'a>(
+    strokes: &'a [Stroke],
+    lengths: &'a [f64],
+    reach: f64,
+) -> impl ParallelIterator<Item = Meeting> + 'a {
+    let ends = Ends::new(strokes);
+    let visible = strokes.par_iter().enumerate();
+    let visible = visible.filter(|(_, stroke)| stroke.is_visible());
+    visible.flat_map_iter(move |(number, stroke)| {
+        let mut along = 0.0;
+        let mut found = Vec::new();
+        for (a, b) in pieces(stroke) {
+            let next = along + distance(a.position, b.position);
+            let touch = reach * touch_of(a.width.max(b.width));
+            ends.near(a.position, b.position, touch, |end| {
+                let is_own = end.stroke as usize == number
+                    && !stroke.closed
+                    && end.arc_from(along, next, lengths[number]) < 4.0 * touch;
+                let places = [end.position, a.position, b.position];
+                let [place, a, b] = places.map(|[x, y]| Point::new(x, y));
+                let distance2 = distance2_to_segment(place, a, b);
+                if !is_own && distance2 <= touch * touch {
+                    let piece = b - a;
+                    let share = (place - a).dot(piece) / piece.hypot2().max(f64::MIN_POSITIVE);
+                    found.push(Meeting {
+                        stroke: end.stroke as usize,
+                        side: end.side,
+                        with: number,
+                        way: along + (next - along) * share.clamp(0.0, 1.0),
+                        distance: distance2.sqrt(),
+                    });
+                }
+            });
+            along = next;
+        }
+        found
+    })
+}
+
+/// Whether the border of a picture of `size` pixels cuts a line off at a place.
+pub(crate) fn is_cut_off(position: [f64; 2], size: [u32; 2]) -> bool {
+    let is_at_side =
+        |i: usize| position[i] <= BORDER_PX || position[i] >= f64::from(size[i]) - BORDER_PX;
+    is_at_side(0) || is_at_side(1)
+}
+
+/// How far from its middle a line meets ends, in pixels.
+fn touch_of(width: f64) -> f64 {
+    (0.5 * width).clamp(TOUCH_PX, FARTHEST_TOUCH_PX)
+}
+
+/// The straight pieces of a stroke.
+fn pieces(stroke: &Stroke) -> impl Iterator<Item = (&StrokePoint, &StrokePoint)> {
+    let points = &stroke.points;
+    let closing =
+        (stroke.closed && points.len() > 1).then(|| (&points[points.len() - 1], &points[0]));
+    let open = points.windows(2).map(|pair| (&pair[0], &pair[1]));
+    open.chain(closing)
+}
+
+/// An end of an open stroke.
+#[derive(Debug, Clone, Copy)]
+struct End {
+    stroke: u32,
+    /// 0 for the start, 1 for the end.
+    side: usize,
+    position: [f64; 2],
+}
+
+impl End {
+    /// The way along its own stroke, `length` long, to a piece of it.
+    fn arc_from(&self, from: f64, to: f64, length: f64) -> f64 {
+        match self.side {
+            0 => from,
+            _ => length - to,
+        }
+    }
+}
+
+/// Width of a cell, in pixels.
+const CELL_PX: f64 = 16.0;
+
+/// The ends of strokes by cells of the picture.
+struct Ends {
+    cells: HashMap<[i32; 2], Vec<End>, FixedState>,
+}
+
+impl Ends {
+    fn new(strokes: &[Stroke]) -> Self {
+        let mut cells: HashMap<[i32; 2], Vec<End>, FixedState> = HashMap::default();
+        for (number, stroke) in (0..).zip(strokes) {
+            if stroke.closed || !stroke.is_visible() {
+                continue;
+            }
+            let ends = [stroke.points.first(), stroke.points.last()];
+            for (side, point) in ends.into_iter().enumerate() {
+                if let Some(point) = point {
+                    let end = End {
+                        stroke: number,
+                        side,
+                        position: point.position,
+                    };
+                    cells.entry(cell_of(point.position)).or_default().push(end);
+                }
+            }
+        }
+        Self { cells }
+    }
+
+    /// Calls `visit` with all ends within `reach` of a straight piece, and with some around; none of pieces that are
+    /// not finite.
+    fn near(&self, a: [f64; 2], b: [f64; 2], reach: f64, mut visit: impl FnMut(&End)) {
+        // Walk along the piece, a cell's width a step.
+        let length = distance(a, b);
+        if length.is_nan() || length > LONGEST_PX {
+            return;
+        }
+        let steps = (length / CELL_PX).ceil().max(1.0) as usize;
+        let at = |step: usize| {
+            let share = step as f64 / steps as f64;
+            [0, 1].map(|i| a[i] + (b[i] - a[i]) * share)
+        };
+        for step in 0..steps {
+            // Visit the cells that it comes near in this step.
+            let (from, to) = (at(step), at(step + 1));
+            let low = cell_of([0, 1].map(|i| from[i].min(to[i]) - reach));
+            let high = cell_of([0, 1].map(|i| from[i].max(to[i]) + reach));
+            for y in low[1]..=high[1] {
+                for x in low[0]..=high[0] {
+                    let there = self.cells.get(&[x, y]);
+                    there.into_iter().flatten().for_each(&mut visit);
+                }
+            }
+        }
+    }
+}
+
+/// Longest piece of a line, in pixels, that is looked at.
+const LONGEST_PX: f64 = 1e6;
+
+fn cell_of(position: [f64; 2]) -> [i32; 2] {
+    position.map(|v| (v / CELL_PX).floor() as i32)
+}

@@ -1,0 +1,88 @@
+//! How the strokes of a drawing are drawn: where they end, how they thin out, how a hand sways, how they are dashed.
+
+use super::model::check_count;
+use crate::error::RenderError;
+use npr_drawing::dash::{Dash, cut_to_dashes};
+use npr_drawing::hand::{Hand, draw_by_hand};
+use npr_drawing::overshoot::{Overshoot, move_ends};
+use npr_drawing::pressure::{Pressure, press_strokes};
+use npr_drawing::taper::{Taper, taper_strokes};
+use npr_stylesheet::{Length, Style, TaperEnds};
+use npr_vector::stroke::Stroke;
+
+/// What a style makes of strokes in a picture.
+pub(super) struct Expression {
+    overshoot: Overshoot,
+    pressure: Pressure,
+    taper: Taper,
+    hand: Hand,
+    dash: Dash,
+}
+
+impl Expression {
+    /// That of a style in a view with its own pressure, with lengths in pixels as `px` resolves them.
+    pub fn new(style: &Style, [height, dpi, world]: [f32; 3], pressure: Pressure) -> Self {
+        let px = |length: Length| f64::from(length.to_px(height, dpi, world));
+        let (width, hand) = (&style.line.width, &style.line.hand);
+        Self {
+            overshoot: Overshoot {
+                beyond_px: px(hand.overshoot),
+                short_px: px(hand.undershoot),
+            },
+            pressure,
+            taper: Taper {
+                lengths_px: [width.taper.start, width.taper.end].map(px),
+                short_px: px(width.short),
+                share: f64::from(width.taper.share),
+                tip: f64::from(width.taper.tip),
+                at_all_ends: width.taper.ends == TaperEnds::All,
+            },
+            hand: Hand {
+                wobble_px: px(hand.wobble),
+                wave_px: px(hand.wave),
+                copies: hand.copies,
+                spread_px: px(hand.spread),
+            },
+            dash: Dash {
+                pattern_px: style.line.dash.pattern.iter().copied().map(px).collect(),
+                fit: style.line.dash.fit,
+            },
+        }
+    }
+
+    /// Draws the visible strokes for which `is_drawn` is true so, in a picture of `size` pixels.
+    ///
+    /// Specks go before ends move, as what is short is about lines and not about pens. Tapers follow the ends; copies
+    /// have the tapers of their line; and each copy is dashed for itself.
+    ///
+    /// # Errors
+    ///
+    /// [`RenderError::TooMany`] before memory is taken for more points than a drawing may have.
+    pub fn draw(
+        &self,
+        strokes: &mut Vec<Stroke>,
+        size: [u32; 2],
+        is_drawn: impl Fn(&Stroke) -> bool + Sync,
+    ) -> Result<(), RenderError> {
+        // Move the ends, and thin them.
+        let mut taper = self.taper;
+        if !self.overshoot.is_none() {
+            let specks = Taper {
+                lengths_px: [0.0; 2],
+                ..taper
+            };
+            taper_strokes(strokes, size, &specks, &is_drawn);
+            taper.short_px = 0.0;
+            move_ends(strokes, size, &self.overshoot, &is_drawn);
+        }
+        press_strokes(strokes, &self.pressure, &is_drawn);
+        taper_strokes(strokes, size, &taper, &is_drawn);
+
+        // Let them sway, and cut them.
+        check_count(self.hand.points_after(strokes, &is_drawn))?;
+        draw_by_hand(strokes, &self.hand, &is_drawn);
+        check_count(self.dash.points_after(strokes, &is_drawn))?;
+        cut_to_dashes(strokes, &self.dash, &is_drawn);
+        Ok(())
+    }
+}
