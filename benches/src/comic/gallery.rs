@@ -12,21 +12,21 @@ use npr_stylesheet::{Style, presets};
 use crate::lines::subjects::shared_models;
 use crate::sheet::Sheet;
 
-/// What is drawn, in this order: textures, a character, a machine, plain surfaces, a figure, a scan.
+/// What is drawn, in this order: textures, a character, plain surfaces, a scan, a machine, a scene of many parts.
 pub const MODELS: [&str; 6] = [
     "flight_helmet.glb",
     "godette_vrm1.vrm",
-    "robot_animated.glb",
-    "shader_ball.glb",
-    "human_body.glb",
+    "kenney_alien.glb",
     "nefertiti_70k.glb",
+    "ingenuity_helicopter.glb",
+    "bridge_garden_scene.glb",
 ];
 
-/// Side of a picture on a sheet, in pixels.
-const SIDE: u32 = 800;
+/// Size of a picture on a sheet, in pixels.
+const SIZE: [u32; 2] = [1920, 1080];
 
 /// Pictures beside each other.
-const COLUMNS: usize = 3;
+const COLUMNS: usize = 2;
 
 /// Writes a sheet a preset into `folder`, of all presets or of those named.
 ///
@@ -63,11 +63,12 @@ pub fn write(folder: &Path, names: &[String]) -> Result<(), Box<dyn Error>> {
 
 /// Draws every scene in a style and writes them beside each other.
 fn write_sheet(path: &Path, scenes: &[Scene], style: &Style) -> Result<(), Box<dyn Error>> {
-    let mut sheet = Sheet::new(scenes.len().min(COLUMNS), [SIDE; 2]);
+    let aspect = SIZE[0] as f32 / SIZE[1] as f32;
+    let mut sheet = Sheet::new(scenes.len().min(COLUMNS), SIZE);
     for scene in scenes {
         let subject = Subject::new(scene, style)?;
-        let options = RendererOptions::new([SIDE; 2]);
-        let camera = subject.model.framing(1.0, DEFAULT_FOV_DEG.to_radians());
+        let options = RendererOptions::new(SIZE);
+        let camera = subject.model.framing(aspect, DEFAULT_FOV_DEG.to_radians());
         let mut renderer = subject.renderer(&Processor, style, &options)?;
         sheet.add(&renderer.draw(&camera)?);
     }

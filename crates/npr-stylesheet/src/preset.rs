@@ -34,7 +34,7 @@ const PRESETS: &[Preset] = &[
     },
     Preset {
         name: "g-pen",
-        version: 1,
+        version: 2,
         title: "Nib lines that swell and run out to points, on white paper",
         text: include_str!("../presets/g-pen.toml"),
     },
@@ -82,7 +82,7 @@ const PRESETS: &[Preset] = &[
     },
     Preset {
         name: "pencil",
-        version: 2,
+        version: 3,
         title: "Graphite on rough paper: shaky strokes, grey lines",
         text: include_str!("../presets/pencil.toml"),
     },
@@ -91,6 +91,60 @@ const PRESETS: &[Preset] = &[
         version: 2,
         title: "Manga page: dots in rows on the picture, solid blacks, clean lines",
         text: include_str!("../presets/screentone.toml"),
+    },
+    Preset {
+        name: "inked",
+        version: 1,
+        title: "Flat colours under black brush strokes that swell and part where they end",
+        text: include_str!("../presets/inked.toml"),
+    },
+    Preset {
+        name: "manga",
+        version: 1,
+        title: "Nib lines that run out to points, over screen tone",
+        text: include_str!("../presets/manga.toml"),
+    },
+    Preset {
+        name: "brush",
+        version: 1,
+        title: "Broad strokes of a dry brush on rice paper",
+        text: include_str!("../presets/brush.toml"),
+    },
+    Preset {
+        name: "ink-wash",
+        version: 1,
+        title: "A dry brush over soft grey washes on rice paper",
+        text: include_str!("../presets/ink-wash.toml"),
+    },
+    Preset {
+        name: "sketch",
+        version: 1,
+        title: "Lines looked for again and again with a pencil, run on beyond corners",
+        text: include_str!("../presets/sketch.toml"),
+    },
+    Preset {
+        name: "pencil-outline",
+        version: 1,
+        title: "Flat cel colours under outlines scrawled with a soft pencil",
+        text: include_str!("../presets/pencil-outline.toml"),
+    },
+    Preset {
+        name: "charcoal",
+        version: 1,
+        title: "Broad crumbling lines and rubbed greys on laid paper",
+        text: include_str!("../presets/charcoal.toml"),
+    },
+    Preset {
+        name: "chalkboard",
+        version: 1,
+        title: "White chalk lines on a dark green board",
+        text: include_str!("../presets/chalkboard.toml"),
+    },
+    Preset {
+        name: "blueprint",
+        version: 1,
+        title: "White lines on Prussian blue that run on beyond corners",
+        text: include_str!("../presets/blueprint.toml"),
     },
     Preset {
         name: "cel-2",
@@ -266,6 +320,12 @@ const OLDER: &[Preset] = &[
         text: include_str!("../presets/older/explosion-1.toml"),
     },
     Preset {
+        name: "g-pen",
+        version: 1,
+        title: "Nib lines that swell and run out to points, on white paper",
+        text: include_str!("../presets/older/g-pen-1.toml"),
+    },
+    Preset {
         name: "ink",
         version: 1,
         title: "Black swelling lines and solid shadows on warm white paper",
@@ -289,6 +349,12 @@ const OLDER: &[Preset] = &[
         version: 1,
         title: "Graphite on rough paper: shaky strokes, grey lines",
         text: include_str!("../presets/older/pencil-1.toml"),
+    },
+    Preset {
+        name: "pencil",
+        version: 2,
+        title: "Graphite on rough paper: shaky strokes, grey lines",
+        text: include_str!("../presets/older/pencil-2.toml"),
     },
     Preset {
         name: "screentone",
@@ -423,20 +489,39 @@ mod tests {
         }
     }
 
+    /// Versions that drew strokes, with a pen where the next ones have brushes.
+    const WITH_PENS: [(&str, u32); 2] = [("g-pen", 1), ("pencil", 2)];
+
     #[test]
     fn versions_from_before_strokes_have_none() {
+        let line_of = |name: &str| Style::preset(name).expect("a preset").line;
         for older in OLDER {
-            let style = Style::preset(&format!("{}@{}", older.name, older.version));
-            let style = style.expect("a preset");
-            assert_eq!(style.line.method, OutlineMethod::Shape, "{}", older.name);
+            let line = line_of(&format!("{}@{}", older.name, older.version));
+            let had_pen = WITH_PENS.contains(&(older.name, older.version));
+            let wanted = if had_pen {
+                OutlineMethod::Strokes
+            } else {
+                OutlineMethod::Shape
+            };
+            assert_eq!(line.method, wanted, "{}", older.name);
+            assert!(line.brush.is_pen(), "{}", older.name);
+            let newest = line_of(older.name);
+            assert_eq!(newest.method, OutlineMethod::Strokes, "{}", older.name);
+            assert_eq!(
+                newest.brush.is_pen(),
+                !had_pen && older.name != "pencil",
+                "{}",
+                older.name
+            );
         }
-        let newest = PRESETS.iter().map(|preset| Style::preset(preset.name));
-        let methods: Vec<OutlineMethod> = newest
-            .map(|style| style.expect("a preset").line.method)
-            .collect();
-        assert!(!methods.contains(&OutlineMethod::Shape));
-        let of_strokes = methods.iter().filter(|m| **m == OutlineMethod::Strokes);
-        assert_eq!(of_strokes.count(), OLDER.len());
+        for preset in PRESETS {
+            assert_ne!(
+                line_of(preset.name).method,
+                OutlineMethod::Shape,
+                "{}",
+                preset.name
+            );
+        }
     }
 
     #[test]

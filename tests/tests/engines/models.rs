@@ -99,6 +99,26 @@ const FIGURES: [&str; 6] = [
     "nefertiti_70k.glb",
 ];
 
+fn figures() -> impl Iterator<Item = PathBuf> {
+    models().into_iter().filter(|path| {
+        let file = path.file_name().unwrap_or_default().to_string_lossy();
+        FIGURES.contains(&file.as_ref())
+    })
+}
+
+/// Looks that draw their lines with brushes.
+const BRUSHED: [&str; 9] = [
+    "inked",
+    "manga",
+    "brush",
+    "ink-wash",
+    "sketch",
+    "pencil-outline",
+    "charcoal",
+    "chalkboard",
+    "blueprint",
+];
+
 const COMIC_LOOKS: [&str; 9] = [
     "comic-silver",
     "comic-light",
@@ -113,12 +133,13 @@ const COMIC_LOOKS: [&str; 9] = [
 
 #[test]
 fn figures_look_alike_in_the_looks_of_comics() {
-    let figures = models().into_iter().filter(|path| {
-        let file = path.file_name().unwrap_or_default().to_string_lossy();
-        FIGURES.contains(&file.as_ref())
-    });
     // Six figures in three looks each: every look has two of them.
-    check_files(figures, &COMIC_LOOKS, 3);
+    check_files(figures(), &COMIC_LOOKS, 3);
+}
+
+#[test]
+fn figures_look_alike_with_brushes() {
+    check_files(figures(), &BRUSHED, 3);
 }
 
 #[test]
