@@ -102,6 +102,8 @@ struct Part {
     streak_across: vec2<f32>,
     back_direction: vec3<f32>,
     line_kinds: array<u32, COLORED_KINDS>,
+    hatch_grain: f32,
+    spots_per_px: f32,
 }
 
 const PART_DOUBLE_SIDED: u32 = 1u;

@@ -37,7 +37,8 @@ fn penned(pixel: vec2<u32>, frame_px: vec2<f32>, color: vec4<f32>) -> vec4<f32> 
         let step = (f32(i) + 0.5) / f32(TONE_TAPS) - 0.5;
         light += ramp_light(pen, tone + length(change) * step) / f32(TONE_TAPS);
     }
-    let ink = ink_on_sheet(pen, frame_px - compose.smoke_anchor_px, compose.smoke_tiles, tone, change);
+    let on_sheet = ink_on_sheet(pen, frame_px - compose.smoke_anchor_px, compose.smoke_tiles, tone, change);
+    let ink = on_paper(pen, on_sheet, frame_px);
     light += (parts[pen].ink_color.rgb - light) * (ink * parts[pen].ink_color.a);
     light += (compose.smoke_line.rgb - light) * color.b;
     return vec4<f32>(light, color.a);

@@ -166,7 +166,8 @@ impl From<RenderError> for Fault {
             RenderError::EmptyFrame { .. } => Self::new(Exit::Usage, error),
             RenderError::Lettering { .. }
             | RenderError::Ramp { .. }
-            | RenderError::Hatch { .. } => Self::new(Exit::Input, error),
+            | RenderError::Hatch { .. }
+            | RenderError::Brush { .. } => Self::new(Exit::Input, error),
             RenderError::FrameTooLarge { .. } | RenderError::TooMany { .. } => {
                 Self::new(Exit::Limit, format!("{error}, and no option lifts that"))
             }

@@ -261,7 +261,11 @@ pub struct Part {
     /// Colours of single kinds of its lines, sRGB bytes, in the order of [`Kind::ALL`](crate::line_kind::Kind::ALL).
     /// A colour counts where `line_flags` has the bit of its kind.
     pub line_kinds: [u32; COLORED_KINDS],
-    /// Fills up what the kinds leave of a multiple of 16 bytes.
+    /// How deep the grain of the paper is for its hatching, as a share of full pressure.
+    pub hatch_grain: f32,
+    /// Hills of the paper per pixel.
+    pub spots_per_px: f32,
+    /// Fills up what these leave of a multiple of 16 bytes.
     pub unused: [u32; UNUSED],
 }
 gpu_layout!(Part {
@@ -309,10 +313,15 @@ gpu_layout!(Part {
     streak_across,
     back_direction,
     line_kinds,
+    hatch_grain,
+    spots_per_px,
 });
 
-/// Words of [`Part`] behind the colours of kinds, which follow three words of sixteen bytes.
-const UNUSED: usize = (COLORED_KINDS + 3).next_multiple_of(4) - (COLORED_KINDS + 3);
+/// Words of [`Part`] from the light behind to the paper, the last sixteen bytes that it fills.
+const LAST: usize = 3 + COLORED_KINDS + 2;
+
+/// Words of [`Part`] behind them.
+const UNUSED: usize = LAST.next_multiple_of(4) - LAST;
 
 impl Part {
     /// Both sides are drawn.

@@ -11,9 +11,6 @@ use npr_stylesheet::{BrushMapping, LineBrush, Style};
 use npr_vector::brush::Brush;
 use npr_vector::stroke::Stroke;
 
-/// Fewest hills of the paper to a pixel, and most: finer ones would be grey.
-const SPOTS_PER_PX: [f32; 2] = [1e-3, 1.0];
-
 /// The brushes of a style, and how they lie on the strokes of every part.
 #[derive(Debug, Default)]
 pub(crate) struct Brushes {
@@ -52,10 +49,6 @@ impl Brushes {
         }
 
         // Store the image of each once.
-        let px = [frame.height_px as f32, frame.dpi, frame.world_px];
-        let size_px = style.paper.size.to_px(px[0], px[1], px[2]);
-        let [fewest, most] = SPOTS_PER_PX;
-        let spots_per_px = (1.0 / size_px).max(fewest).min(most);
         let mut brushes = Self {
             all: vec![Brush::default()],
             of_parts: Vec::with_capacity(drawn.len()),
@@ -84,7 +77,7 @@ impl Brushes {
                 dry: manner.dry,
                 grain: manner.grain,
                 soft: manner.soft,
-                spots_per_px,
+                spots_per_px: frame.spots_per_px,
                 ..*header
             };
             let number = match brushes.all.iter().position(|other| *other == own) {

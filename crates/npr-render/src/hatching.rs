@@ -137,6 +137,8 @@ fn notices_of(model: &Model, inks: &[Ink], guides: &Guides, parts: &[Part]) -> V
 pub(crate) struct FrameScale {
     pub height_px: u32,
     pub dpi: f32,
+    /// Hills of the paper per pixel.
+    pub spots_per_px: f32,
     /// Frame pixels per world unit, about.
     pub world_px: f32,
 }
@@ -232,6 +234,7 @@ fn set_pen(
         | bit(Part::TWO_LAYERS, hatch.pattern.layer_count() > 1);
     part.spacing_px = spacing_px;
     part.hatch_gain = hatch.gain;
+    (part.hatch_grain, part.spots_per_px) = (hatch.grain, frame.spots_per_px);
     part.second_from = hatch::second_layer_start(hatch.cross_at);
     // On the surface the chart is turned: its seams allow no other angle than whole half turns.
     let angle = match mapping {

@@ -65,10 +65,12 @@ impl StyledModel {
 
         // Resolve the style for every part, with its tones and colours of lines.
         let mut parts: Vec<Part> = model.parts.iter().map(|info| part(info, style)).collect();
+        let world_px = options.size[1] as f32 * 0.5 / model.radius();
         let frame = FrameScale {
             height_px: options.size[1],
             dpi: options.dpi,
-            world_px: options.size[1] as f32 * 0.5 / model.radius(),
+            spots_per_px: spots_per_px(style, [options.size[1] as f32, options.dpi, world_px]),
+            world_px,
         };
         add_tone_rows(model, style, &pictures, &mut parts, &mut textures)?;
         add_line_colors(
@@ -337,6 +339,17 @@ pub(crate) fn largest_half_width(style: &Style, parts: &[Part], base_px: f32) ->
         })
         .fold(1.0, f32::max);
     base_px * style.line.width.max * factor * 0.5
+}
+
+/// Fewest hills of the paper to a pixel, and most: finer ones would be grey.
+const SPOTS_PER_PX: [f32; 2] = [1e-3, 1.0];
+
+/// Hills of a style's paper per pixel, where lengths are resolved by the height, dots per inch, and pixels of a unit.
+fn spots_per_px(style: &Style, [height, dpi, world]: [f32; 3]) -> f32 {
+    let [fewest, most] = SPOTS_PER_PX;
+    (1.0 / style.paper.size.to_px(height, dpi, world))
+        .max(fewest)
+        .min(most)
 }
 
 /// Thinnest base width in frame pixels of lengths that follow the frame: thinner ones would fade in small pictures.

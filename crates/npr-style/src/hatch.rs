@@ -126,6 +126,9 @@ pub struct Hatch {
     /// For pattern `cross`: the light, 0..1, below which the second layer begins; default 0.5, half ink.
     #[cfg_attr(feature = "serde", schemars(range(min = 0.0, max = 1.0)))]
     pub cross_at: f32,
+    /// How much the grain of the paper shows in strokes, 0..2; default 0, smooth. 0.6 drawing paper, 1.2 rough.
+    #[cfg_attr(feature = "serde", schemars(range(min = 0.0, max = 2.0)))]
+    pub grain: f32,
     /// Which of many drawings in the same hand, 0..4294967295; default 0.
     #[cfg_attr(feature = "serde", schemars(range(max = 4294967295u32)))]
     pub seed: u32,
@@ -144,6 +147,7 @@ impl Default for Hatch {
             gain: 1.0,
             angle_deg: 0.0,
             cross_at: 0.5,
+            grain: 0.0,
             seed: 0,
         }
     }

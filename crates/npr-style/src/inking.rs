@@ -12,6 +12,7 @@ use crate::hatch::{
 use crate::paint::painted_level;
 use crate::ramp::ramp_coordinate;
 use npr_core::geometry::{ChartCorners, Part, Triangle};
+use npr_core::grain::paper_height;
 use npr_core::raster::ID_MASK;
 use npr_core::surface::{blend, blend2, weights_around};
 use npr_core::texture::HEADER_WORDS;
@@ -67,10 +68,24 @@ pub(crate) fn ink_over(part: &Part, range: [f32; 2]) -> Option<f32> {
     if !painted && tone_value(lightest, level_of(part, range[0])) > part.threshold {
         Some(0.0)
     } else if tone_value(darkest, level_of(part, range[1])) < part.threshold {
-        Some(1.0)
+        // The grain of the paper leaves white in a hatch however dark it is.
+        let is_grained = part.flags & Part::HATCH != 0 && part.hatch_grain > 0.0;
+        (!is_grained).then_some(1.0)
     } else {
         None
     }
+}
+
+/// Pressure, as a share of the full one, over which the ink of a hatch grows from none to all.
+const SOFT: f32 = 0.4;
+
+/// What the grain of the paper leaves of the ink of a hatch at a place of the picture, in pixels: its hills take all.
+pub(crate) fn on_paper(part: &Part, ink: f32, px: [f32; 2]) -> f32 {
+    if ink <= 0.0 || part.hatch_grain <= 0.0 {
+        return ink;
+    }
+    let valley = 1.0 - paper_height(px, part.spots_per_px);
+    ink * ((1.0 - part.hatch_grain * valley) / SOFT + 0.5).clamp(0.0, 1.0)
 }
 
 /// Ink of a hatched surface at luminance `l` of the shade ramp, if no stroke is thin or wide enough to matter: 1 or 0;
@@ -175,7 +190,7 @@ impl Layers<'_> {
             return ink_coverage(value, length(darkens), part.threshold);
         }
         if let Some(ink) = ink_of_level(part, l[0]) {
-            return ink;
+            return on_paper(part, ink, px);
         }
         let chart_distortion = self.chart_distortion_at(id, weights[0]);
         let per_px = length([lit[1] - lit[0], lit[2] - lit[0]]) * white[0];
@@ -191,7 +206,11 @@ impl Layers<'_> {
             chart_distortion,
             abrupt,
         };
-        self.ink_of_hatch(part, &place, l[0], darkens, calm)
+        on_paper(
+            part,
+            self.ink_of_hatch(part, &place, l[0], darkens, calm),
+            px,
+        )
     }
 
     /// Ink of hatched surface at the luminance `l` of its shade ramp, which changes F by `darkens` over a pixel.
@@ -467,6 +486,20 @@ mod tests {
                 let value = tone_value(s, level_of(&part, low + width * at));
                 prop_assert_eq!(ink == 1.0, value < part.threshold);
             }
+        }
+
+        /// Rough paper takes less ink than smooth one, in valleys; no triangle of a grained hatch is ink all over.
+        #[test]
+        fn the_grain_of_paper_takes_ink_in_valleys(
+            ink in 0f32..=1.0, x in 0f32..900.0, y in 0f32..900.0, grain in 0f32..2.0, low in 0f32..1.0,
+        ) {
+            let rough = |hatch_grain: f32| Part { hatch_grain, spots_per_px: 0.4, ..part(Part::HATCH) };
+            let [smooth, some, more] = [0.0, grain, grain + 0.3].map(|grain| on_paper(&rough(grain), ink, [x, y]));
+            prop_assert!(smooth == ink && (0.0..=ink).contains(&some) && more <= some);
+            if paper_height([x, y], 0.4) == 1.0 {
+                prop_assert_eq!(more, ink, "hills take all");
+            }
+            prop_assert!(ink_over(&rough(grain + 0.1), [low, low]) != Some(1.0));
         }
 
         /// The oracle is the ink that the hatch would give, at its steepest.

@@ -1,5 +1,6 @@
 //! Ink, hatching, highlights and beams in whole frames, on the processor.
 
+use npr_core::grain::paper_height;
 use npr_gpu::processor::Processor;
 use npr_mesh::testing::{icosphere, plane};
 use npr_render::{Frame, Model};
@@ -390,6 +391,40 @@ fn crossed_strokes_run_both_ways_and_no_two_patterns_are_alike() {
             let count = apart.count();
             assert!(count > 200, "{} and {pattern}: {count}", patterns[i]);
         }
+    }
+}
+
+/// Hatching leaves the same valleys of the paper white as strokes do, and more on rougher paper.
+#[test]
+fn hatching_shows_the_grain_of_the_paper() {
+    let wall = scene_of(&[Object::new("Wall", wall(1.5, 0.0))]);
+    let drawn = |grain: &str, size: &str| {
+        let settings = [
+            "ink.tone=ink+hatch",
+            "light.direction=[0,0,-1]",
+            &format!("ink.hatch.grain={grain}"),
+            &format!("paper.size={size}"),
+        ];
+        draw(&wall, &settings)
+    };
+    let dark = |frame: &Frame| -> f32 {
+        let inside = (60..260).flat_map(|x| (40..200).map(move |y| (x, y)));
+        let ink = inside.map(|(x, y)| 1.0 - f32::from(pixel(frame, x, y)[0]) / 255.0);
+        ink.sum::<f32>() / (200.0 * 160.0)
+    };
+    let [smooth, some, rough] = ["0", "1.2", "1.8"].map(|grain| drawn(grain, "4px"));
+    assert!(
+        dark(&smooth) > 0.97,
+        "all of the wall is ink: {}",
+        dark(&smooth)
+    );
+    assert!(dark(&some) < 0.97 && dark(&rough) < dark(&some) - 0.03);
+    // Where paper is high there is ink, where it is low there is none.
+    for (x, y) in (60..260).flat_map(|x| (40..200).map(move |y| (x, y))) {
+        let height = paper_height([x as f32 + 0.5, y as f32 + 0.5], 0.25);
+        let white = pixel(&rough, x, y)[0];
+        assert!(white < 100 || height < 0.6, "{x} {y}: {height} {white}");
+        assert!(white > 100 || height > 0.3, "{x} {y}: {height} {white}");
     }
 }
 

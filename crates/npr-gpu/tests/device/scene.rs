@@ -240,6 +240,8 @@ fn part(object: u32, flags: u32, texture: u32) -> Part {
         paint_color: 0x668c_60c0,
         spacing_px: 3.0,
         hatch_gain: 1.2,
+        hatch_grain: 0.7,
+        spots_per_px: 0.4,
         second_from: 0.4,
         tile_scale: 0.5,
         turn: [0.8, 0.6],

@@ -8,6 +8,7 @@ use npr_core::geometry::Part;
 
 use super::resolve::MASK;
 use crate::compose::{Compose, Layers};
+use crate::inking::on_paper;
 use crate::ramp::Level;
 
 /// Points in a pixel's range of tones over which the ramp is averaged.
@@ -89,7 +90,8 @@ impl Layers<'_> {
             frame_px[0] - smoke_anchor_px[0],
             frame_px[1] - smoke_anchor_px[1],
         ];
-        let ink = self.ink_on_sheet(pen, at, smoke_tiles, tone, change) * pen.ink_color[3];
+        let on_sheet = self.ink_on_sheet(pen, at, smoke_tiles, tone, change);
+        let ink = on_paper(pen, on_sheet, frame_px) * pen.ink_color[3];
         let [r, g, b] = std::array::from_fn(|k| {
             let inked = light[k] + (pen.ink_color[k] - light[k]) * ink;
             inked + (smoke_line[k] - inked) * color[2]

@@ -182,6 +182,18 @@ impl<'a> Case<'a> {
         self.any(|look| matches!(look.ink.tone, Tone::Hatch | Tone::InkHatch | Tone::Auto))
     }
 
+    /// Whether strokes, or hatching of surfaces or of smoke, show the grain of the paper.
+    pub fn minds_paper(&self) -> bool {
+        let smoke = &self.style.smoke.ink;
+        let strokes = self.is_drawn_by(&[OutlineMethod::Strokes, OutlineMethod::Potrace])
+            && self.any(|look| {
+                let brush = &look.line_brush;
+                !brush.is_pen() && brush.manner().grain > 0.0
+            });
+        let hatching = self.hatches() && self.any(|look| look.ink.hatch.grain > 0.0);
+        strokes || hatching || self.on.scene.smoke && smoke.hatch.grain > 0.0
+    }
+
     /// Whether the lines of any part may adapt to the background by one of these methods.
     pub fn contrasts_by(&self, methods: &[BackgroundMethod]) -> bool {
         self.any(|look| methods.contains(&look.line_background.method))

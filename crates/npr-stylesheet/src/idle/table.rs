@@ -66,7 +66,6 @@ pub(super) const ENTRIES: &[Entry] = &[
     entry(
         &[
             "line",
-            "paper",
             "detect",
             "shade",
             "ink",
@@ -104,9 +103,14 @@ pub(super) const ENTRIES: &[Entry] = &[
         "--method says how its lines are found",
     ),
     entry(
-        &["line.brush", "paper"],
+        &["line.brush"],
         |c| !c.is_frame(),
         "brushes are of pictures: drawings of lines have even ink",
+    ),
+    entry(
+        &["paper"],
+        |c| !c.is_frame(),
+        "the grain of paper is of pictures",
     ),
     entry(
         &["motion", "blend"],
@@ -379,9 +383,7 @@ pub(super) const ENTRIES: &[Entry] = &[
         ],
         |c| !c.is_drawn_by(&[Strokes, Potrace]),
     ),
-    of_methods(&["line.brush", "paper"], |c| {
-        !c.is_drawn_by(&[Strokes, Potrace])
-    }),
+    of_methods(&["line.brush"], |c| !c.is_drawn_by(&[Strokes, Potrace])),
     of_methods(&["detect.scale"], |c| {
         !c.is_drawn_by(&[Shape, Okuya, Filter, FilterHull, Edges])
     }),
@@ -437,7 +439,6 @@ pub(super) const ENTRIES: &[Entry] = &[
             "line.brush.dry",
             "line.brush.grain",
             "line.brush.soft",
-            "paper",
         ],
         |c| !c.any(|look| !look.line_brush.is_pen()),
         "line.brush.tip is pen, which has one even ink",
@@ -449,8 +450,8 @@ pub(super) const ENTRIES: &[Entry] = &[
     ),
     entry(
         &["paper"],
-        |c| !c.any(|look| !look.line_brush.is_pen() && look.line_brush.manner().grain > 0.0),
-        "line.brush.grain is 0",
+        |c| !c.minds_paper(),
+        "neither strokes nor hatching mind its grain",
     ),
     entry(
         &["line.hand.wave"],
