@@ -80,13 +80,13 @@ impl Tip {
         let [dry, grain, soft] = match self {
             Self::Pen | Self::Marker => [0.0, 0.0, 0.1],
             Self::GPen => [0.0, 0.15, 0.1],
-            Self::Brush => [0.8, 0.1, 0.12],
+            Self::Brush => [1.0, 0.1, 0.12],
             Self::DryBrush => [1.35, 0.3, 0.15],
             Self::Pencil => [0.4, 0.75, 0.8],
             Self::Charcoal => [0.8, 0.6, 0.45],
             Self::Chalk => [0.5, 1.0, 0.2],
             Self::Airbrush => [0.0, 0.0, 1.0],
-            Self::Sketch => [0.3, 0.6, 0.6],
+            Self::Sketch => [0.2, 0.5, 0.6],
         };
         Manner { dry, grain, soft }
     }

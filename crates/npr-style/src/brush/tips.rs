@@ -167,9 +167,9 @@ fn strands(place: Place) -> f32 {
         let slow = noise(line, 900 + i, [LENGTH / 2, 1]) - 0.5;
         let press = noise(line, 920 + i, [LENGTH, 1]);
         let middle = (i as f32 + 0.5) / STRANDS as f32 * 1.7 - 0.85 + slow * 0.9;
-        let half = 0.06 + 0.09 * press;
+        let half = 0.1 + 0.12 * press;
         let off = (place.across - middle.clamp(-0.85, 0.85)).abs();
-        (1.0 - smoothstep(half * 0.4, half, off)) * (0.45 + 0.55 * press)
+        (1.0 - smoothstep(half * 0.4, half, off)) * (0.65 + 0.35 * press)
     };
     (0..STRANDS).map(strand).fold(0.0, f32::max)
 }
