@@ -4,9 +4,9 @@
 //! [`artwork`] decides what a file shows of it, in which layers, and on which page; [`svg`], [`pdf`] and [`drawing`]
 //! write that, [`json`] the strokes themselves; [`ink`] gives points for the pass that inks a frame. On the way
 //! [`fit`] makes cubic curves of points, [`outline`] the outline of a stroke whose width varies, and [`plot`] an order
-//! with short ways in the air. [`overshoot`] lets strokes run on beyond their ends, [`taper`] thins them there, [`hand`]
-//! lets them sway and draws them more than once, and [`dash`] cuts them. [`fill`] makes closed regions of what lines
-//! enclose, [`lettering`] outlines of words, and [`centreline`] files of centre lines.
+//! with short ways in the air. [`overshoot`] lets strokes run on beyond their ends, [`taper`] thins them there,
+//! [`hand`] lets them sway and draws them more than once, and [`dash`] cuts them. [`fill`] makes closed regions of what
+//! lines enclose, [`lettering`] outlines of words, and [`centreline`] files of centre lines.
 //!
 //! ```
 //! use npr_drawing::svg::{SvgOptions, write_svg};
