@@ -18,8 +18,8 @@ const STEPS_PER_WAVE: f64 = 50.0;
 /// Least distance between points that are added, in pixels.
 const LEAST_STEP_PX: f64 = 0.5;
 
-/// Knots of a wave: a cubic B-spline over white noise is 0 every 2.7 knots in the mean, and twice a wave; the finer sway
-/// adds a few zeros.
+/// Knots of a wave: a cubic B-spline over white noise is 0 every 2.7 knots in the mean, and twice a wave; the finer
+/// sway adds a few zeros.
 const KNOTS_PER_WAVE: f64 = 5.0;
 
 /// Share of the finer sway, which is half as long.

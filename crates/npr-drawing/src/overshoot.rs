@@ -48,9 +48,9 @@ impl Overshoot {
 /// Moves the ends of the visible open strokes for which `is_moved` is true, in a picture of `size` pixels.
 ///
 /// Each end by its own share of the lengths asked for, at least half of them, which the stroke's id decides; by a
-/// quarter of its stroke's length at most, or a third where it stops short. An end runs on straight, the way that the line's last
-/// pixels go. Ends that the picture's border cuts off stay. O(points), on all threads, with the same result for any
-/// number of them.
+/// quarter of its stroke's length at most, or a third where it stops short. An end runs on straight, the way that the
+/// line's last pixels go. Ends that the picture's border cuts off stay. O(points), on all threads, with the same result
+/// for any number of them.
 pub fn move_ends(
     strokes: &mut [Stroke],
     size: [u32; 2],

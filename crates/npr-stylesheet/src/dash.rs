@@ -7,12 +7,12 @@ style_table! {
 /// How lines are cut into dashes and dots.
 pub struct Dash {
     /// Lengths of ink, gap, ink, gap and so on, at most 8; default none, whole lines. [12, 8] dashes, [0, 8] dots,
-    /// [20, 6, 0, 6] both. Round ends make ink longer by the line's width, and gaps shorter. Of an odd number of lengths
-    /// ink and gap change places every time. Lines shorter than the pattern stay whole.
+    /// [20, 6, 0, 6] both. Round ends make ink longer by the line's width, and gaps shorter. Of an odd number of
+    /// lengths ink and gap change places every time. Lines shorter than the pattern stay whole.
     #[schemars(length(max = 8))]
     pub pattern: Vec<Length> = Vec::new(),
-    /// Whether the pattern is stretched so that lines begin and end with half a dash, and meet at corners; default true.
-    /// False keeps its lengths, and breaks off where lines end.
+    /// Whether the pattern is stretched so that lines begin and end with half a dash, and meet at corners; default
+    /// true. False keeps its lengths, and breaks off where lines end.
     pub fit: bool = true,
 }
 }

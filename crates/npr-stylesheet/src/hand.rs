@@ -14,8 +14,8 @@ pub struct Hand {
     /// How often each line is drawn, 1..8; default 1. 2 a firm sketch, 4 a search for the line.
     #[schemars(range(min = 1, max = 8))]
     pub copies: u32 = 1,
-    /// Greatest distance of further copies from the line; default 2. 1 looks like one thick line, 8 like a loose sketch.
-    /// They begin and end elsewhere by up to three times as much.
+    /// Greatest distance of further copies from the line; default 2. 1 looks like one thick line, 8 like a loose
+    /// sketch. They begin and end elsewhere by up to three times as much.
     pub spread: Length = Length::ref_px(2.0),
     /// Length by which ends of lines run on straight, by half of it at least and a quarter of the line at most; default
     /// 0. 6 a quick pen, 40 construction lines. `split_angle_deg` gives ends at corners, too.

@@ -165,6 +165,8 @@ fn copies_of_a_ruler_are_straight_and_lie_beside() {
                 "an end by three spreads, and all by one: {along} {across}"
             );
         }
+        // It is turned: its ends lie beside the line by amounts of their own.
+        assert!((a[1] - b[1]).abs() > 0.05 && (a[1] - 50.0).abs() + (b[1] - 50.0).abs() > 0.3);
         // All between lies on the straight line between the ends.
         let rise = (b[1] - a[1]) / (b[0] - a[0]);
         let off = |p: &StrokePoint| p.position[1] - a[1] - rise * (p.position[0] - a[0]);
@@ -181,6 +183,13 @@ fn rings_come_back_and_their_copies_run_on() {
     let points = &all[0].points;
     let closing = apart(points[0].position, points[points.len() - 1].position);
     assert!(closing < 3.0, "{closing}");
+    // Its start sways as all of it does.
+    let starts = (0..40).map(|id| {
+        let ring = Stroke { id, ..circle(80.0) };
+        let swayed = drawn(vec![ring.clone()], &CALM);
+        apart(swayed[0].points[0].position, ring.points[0].position)
+    });
+    assert!(starts.fold(0.0, f64::max) > 2.0);
     for copy in &all[1..] {
         let over = copy.length() - circle(80.0).length();
         assert!(over > 1.0 && over < 63.0, "{over}");
@@ -263,6 +272,16 @@ proptest! {
             }
         }
         prop_assert_eq!(&drawn(strokes, &hand), &after, "chance is the same again");
+    }
+
+    #[test]
+    fn any_number_of_threads_draws_the_same(strokes in strokes()) {
+        let hand = Hand { copies: 3, ..CALM };
+        let of_threads = |count: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build().unwrap();
+            pool.install(|| drawn(strokes.clone(), &hand))
+        };
+        prop_assert_eq!(of_threads(1), of_threads(5));
     }
 
     #[test]

@@ -102,11 +102,15 @@ proptest! {
             prop_assert!(gained >= least - 1e-6 && gained <= 2.0 * each[1] + 1e-6, "{} {:?}", gained, each);
             prop_assert!(new.length() >= old.length() / 3.0 - 1e-6);
             if !is_short && has_way && px > 1.0 {
-                let [tip, end, inner] = [0, 1, 2].map(|i| new.points[i].position);
-                let on = [0, 1].map(|i| [end[i] - inner[i], tip[i] - end[i]]);
-                let cross = on[0][0] * on[1][1] - on[0][1] * on[1][0];
-                let dot = on[0][0] * on[0][1] + on[1][0] * on[1][1];
-                prop_assert!(dot > 0.0 && cross.abs() < 1e-6 * dot);
+                let mut places: Vec<[f64; 2]> = new.points.iter().map(|point| point.position).collect();
+                for _ in 0..2 {
+                    let [tip, end, inner] = [places[0], places[1], places[2]];
+                    let on = [0, 1].map(|i| [end[i] - inner[i], tip[i] - end[i]]);
+                    let cross = on[0][0] * on[1][1] - on[0][1] * on[1][0];
+                    let dot = on[0][0] * on[0][1] + on[1][0] * on[1][1];
+                    prop_assert!(dot > 0.0 && cross.abs() < 1e-6 * dot);
+                    places.reverse();
+                }
             }
         }
         prop_assert_eq!(&moved(strokes, beyond, short), &after, "chance is the same again");
