@@ -47,7 +47,9 @@ fn brush_ink(element: u32, px: vec2<f32>) -> f32 {
         if behind.square_distance < foot.square_distance - NEARER { return 0.0; }
     }
 
-    // Find the place in the brush's image: beyond free ends it goes on straight.
+    // Find the place in the brush's image: beyond free ends it goes on straight. Stamps end at their sides.
+    let is_stamp = (a.flags & INK_STAMP) != 0u;
+    if is_stamp && (foot.along != clamp(foot.along, 0.0, 1.0)) { return 0.0; }
     let t = clamp(foot.along, 0.0, 1.0);
     var along = foot.along;
     if is_led { along = max(along, 0.0); }
@@ -68,6 +70,15 @@ fn brush_ink(element: u32, px: vec2<f32>) -> f32 {
     let texels_per_px = max(across_px, along_px);
     let place = vec2<f32>(u, brush_across(beside / half_width, is_mirrored));
     var texel = brush_texel(brush, place, texels_per_px);
+
+    // A round stamp falls off all around.
+    if (a.flags & INK_ROUND) != 0u {
+        let off = px - (a.px + b.px) * 0.5;
+        let far = sqrt(off.x * off.x + off.y * off.y) / half_width;
+        if far >= 1.0 { return 0.0; }
+        let rim = vec2<f32>(u, brush_across(far, is_mirrored));
+        texel.y = min(texel.y, brush_texel(brush, rim, texels_per_px).y);
+    }
 
     // Lift the brush beyond a free end, which is round.
     var pressure = a.pressure + (b.pressure - a.pressure) * t;

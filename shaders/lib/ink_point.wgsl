@@ -3,6 +3,8 @@
 const INK_GOES_ON: u32 = 1u;
 const INK_JOINED: u32 = 2u;
 const INK_MIRRORED: u32 = 4u;
+const INK_STAMP: u32 = 8u;
+const INK_ROUND: u32 = 16u;
 const INK_BRUSH_SHIFT: u32 = 8u;
 
 struct InkPoint {

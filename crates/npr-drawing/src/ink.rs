@@ -1,6 +1,7 @@
 //! The visible strokes of a drawing as points that the pass `stroke.draw_strokes` inks into a frame.
 
 use crate::clip::clip_stroke;
+use crate::stamps::Stamps;
 use npr_core::random::{hash, unit};
 use npr_vector::stroke::{Drawing, Stroke, StrokePoint};
 use npr_vector::stroke_ink::InkPoint;
@@ -14,15 +15,26 @@ const WIDEST: f64 = 1e5;
 pub struct BrushLay {
     /// The number of the brush; 0 is a pen, without an image.
     pub brush: u32,
-    /// Length of one image, in pixels; `None` lays one over the whole stroke.
-    pub length_px: Option<f64>,
+    /// How often the image is there.
+    pub images: Images,
+}
+
+/// How often the image of a brush lies on a stroke.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Images {
+    /// One over the whole stroke.
+    Once,
+    /// One behind the other, each so many pixels long.
+    ByLength(f64),
+    /// As stamps.
+    Stamps(Stamps),
 }
 
 impl BrushLay {
     /// A pen.
     pub const PEN: Self = Self {
         brush: 0,
-        length_px: None,
+        images: Images::Once,
     };
 }
 
@@ -46,8 +58,8 @@ impl Laid {
         let length = stroke.length();
         let first = stroke.points.first().map_or(0.0, |point| point.u);
         let chance = hash(stroke.id as u32, (stroke.id >> 32) as u32, 0);
-        let (start, per_px) = match lay.length_px {
-            Some(image) => {
+        let (start, per_px) = match lay.images {
+            Images::ByLength(image) => {
                 let images = length / image.max(LEAST_IMAGE_PX);
                 let whole = match stroke.closed {
                     true => images.round().max(1.0),
@@ -55,10 +67,10 @@ impl Laid {
                 };
                 (f64::from(unit(chance)), whole / length)
             }
-            None => (-first / length, 1.0 / length),
+            Images::Once | Images::Stamps(_) => (-first / length, 1.0 / length),
         };
         let per_px = if per_px.is_finite() { per_px } else { 0.0 };
-        let is_mirrored = lay.length_px.is_some() && chance & 1 != 0;
+        let is_mirrored = matches!(lay.images, Images::ByLength(_)) && chance & 1 != 0;
         let mirrored = if is_mirrored { InkPoint::MIRRORED } else { 0 };
         Self {
             flags: lay.brush << InkPoint::BRUSH_SHIFT | mirrored,
@@ -124,7 +136,11 @@ pub fn ink_points(
         // Lay its brush on it.
         let lay = lay_of(stroke);
         let laid = Laid::new(stroke, lay, widest);
-        let has_image = lay.brush > 0;
+        let (has_image, id) = (lay.brush > 0, stroke.id);
+        let stamps = match lay.images {
+            Images::Stamps(stamps) if has_image => Some(stamps),
+            _ => None,
+        };
 
         // Give every point its width and colour; a closed one comes back to its first. The image of a brush needs to
         // know where a ring comes from and goes on to.
@@ -133,6 +149,22 @@ pub fn ink_points(
         parts.into_iter().flat_map(move |(mut points, is_closed)| {
             if has_image {
                 keep_apart(&mut points);
+            }
+            let inked = move |point: &StrokePoint| {
+                // No number is no width.
+                let half_width = half(point).max(0.0);
+                InkPoint {
+                    px: point.position.map(|at| at as f32),
+                    half_width: half_width as f32,
+                    nearness: nearness(point.depth),
+                    color: u32::from_le_bytes(point.color.unwrap_or(own)),
+                    flags: laid.flags,
+                    u: 0.0,
+                    pressure: laid.pressure(half_width),
+                }
+            };
+            if let Some(stamps) = stamps {
+                return stamps.along(&points, is_closed, id, &inked);
             }
             let drawn = InkPoint::GOES_ON | InkPoint::JOINED;
             let joined = InkPoint::JOINED;
@@ -148,21 +180,12 @@ pub fn ink_points(
                 (true, false) => steps.push((0, 1.0, 0)),
                 (false, _) => steps[count - 1].2 = 0,
             }
-            let inked = move |(i, rounds, flags): (usize, f64, u32)| {
-                let point = &points[i];
-                // No number is no width.
-                let half_width = half(point).max(0.0);
-                InkPoint {
-                    px: point.position.map(|at| at as f32),
-                    half_width: half_width as f32,
-                    nearness: nearness(point.depth),
-                    color: u32::from_le_bytes(point.color.unwrap_or(own)),
-                    flags: laid.flags | flags,
-                    u: laid.u(point, rounds),
-                    pressure: laid.pressure(half_width),
-                }
+            let laid_at = |(i, rounds, flags): (usize, f64, u32)| InkPoint {
+                flags: laid.flags | flags,
+                u: laid.u(&points[i], rounds),
+                ..inked(&points[i])
             };
-            steps.into_iter().map(inked).collect::<Vec<_>>()
+            steps.into_iter().map(laid_at).collect::<Vec<_>>()
         })
     };
     strokes.flat_map_iter(of_stroke).collect()
@@ -257,7 +280,7 @@ mod tests {
     fn with_brush(length_px: Option<f64>) -> BrushLay {
         BrushLay {
             brush: 3,
-            length_px,
+            images: length_px.map_or(Images::Once, Images::ByLength),
         }
     }
 

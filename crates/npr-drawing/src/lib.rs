@@ -51,6 +51,7 @@ pub mod pdf;
 pub mod plot;
 pub mod pressure;
 mod seed;
+pub mod stamps;
 pub mod svg;
 pub mod taper;
 #[cfg(test)]

@@ -5,7 +5,8 @@ use crate::hatching::FrameScale;
 use crate::model::Model;
 use crate::pictures::Pictures;
 use npr_core::texture::TextureStore;
-use npr_drawing::ink::BrushLay;
+use npr_drawing::ink::{BrushLay, Images};
+use npr_drawing::stamps::Stamps;
 use npr_style::brush::BrushImage;
 use npr_stylesheet::{BrushMapping, LineBrush, Style};
 use npr_vector::brush::Brush;
@@ -16,8 +17,8 @@ use npr_vector::stroke::Stroke;
 pub(crate) struct Brushes {
     /// The brushes, a pen first; empty where all draw with a pen.
     pub all: Vec<Brush>,
-    /// How that of every part lies on strokes: its number, and how many base widths its image is long.
-    of_parts: Vec<(u32, Option<f32>)>,
+    /// How that of every part lies on strokes, where a pixel is as long as the base width.
+    of_parts: Vec<BrushLay>,
 }
 
 /// A picture or a tip whose texels lie in the texture store.
@@ -56,7 +57,7 @@ impl Brushes {
         let mut stored: Vec<StoredImage> = Vec::new();
         for brush in drawn {
             let Some(brush) = brush else {
-                brushes.of_parts.push((0, None));
+                brushes.of_parts.push(BrushLay::PEN);
                 continue;
             };
             let has_it = |other: &StoredImage| {
@@ -87,11 +88,10 @@ impl Brushes {
                     brushes.all.len() - 1
                 }
             };
-            let images = match brush.mapping {
-                BrushMapping::Length => Some(length * brush.stretch),
-                BrushMapping::Once => None,
-            };
-            brushes.of_parts.push((number as u32, images));
+            brushes.of_parts.push(BrushLay {
+                brush: number as u32,
+                images: images_of(&brush, *length),
+            });
         }
         Ok(brushes)
     }
@@ -99,10 +99,45 @@ impl Brushes {
     /// How a brush lies on a stroke, where the base width is `base_px`.
     pub fn lay_of(&self, stroke: &Stroke, base_px: f32) -> BrushLay {
         let of_part = self.of_parts.get(stroke.surface as usize);
-        of_part.map_or(BrushLay::PEN, |(brush, length)| BrushLay {
-            brush: *brush,
-            length_px: length.map(|length| f64::from(length) * f64::from(base_px)),
-        })
+        let BrushLay { brush, images } = of_part.copied().unwrap_or(BrushLay::PEN);
+        let width = f64::from(base_px);
+        let images = match images {
+            Images::Once => Images::Once,
+            Images::ByLength(widths) => Images::ByLength(widths * width),
+            Images::Stamps(stamps) => Images::Stamps(Stamps {
+                spacing_px: stamps.spacing_px * width,
+                ..stamps
+            }),
+        };
+        BrushLay { brush, images }
+    }
+}
+
+/// How often the image of a brush, `length` widths long, lies on a stroke, where a pixel is as long as the base width.
+fn images_of(brush: &LineBrush, length: f32) -> Images {
+    let stamp = &brush.stamp;
+    match brush.mapping {
+        BrushMapping::Length => Images::ByLength(f64::from(length * brush.stretch)),
+        BrushMapping::Once => Images::Once,
+        BrushMapping::Stamps => {
+            // Tips leave a round mark of theirs; a picture is one itself.
+            let is_tip = brush.image.is_empty();
+            Images::Stamps(Stamps {
+                spacing_px: stamp.spacing.into(),
+                size: stamp.size.into(),
+                length: if is_tip { 1.0 } else { length.into() },
+                jitter: stamp.jitter.into(),
+                angle: f64::from(stamp.angle_deg).to_radians(),
+                turn: f64::from(stamp.turn_deg).to_radians(),
+                rakes: stamp.rake,
+                scatter: stamp.scatter.into(),
+                part: match is_tip {
+                    true => (None, 1.0 / f64::from(length)),
+                    false => (Some(0.0), 1.0),
+                },
+                is_round: is_tip,
+            })
+        }
     }
 }
 

@@ -16,6 +16,43 @@ pub enum BrushMapping {
     Length,
     /// Once over the whole stroke, from its start to its end.
     Once,
+    /// As stamps, set down one after the other.
+    Stamps,
+}
+
+style_table! {
+/// How stamps lie along strokes; for mapping `stamps`.
+pub struct Stamp;
+/// What a rule changes about how stamps lie along strokes; what is absent stays.
+pub struct RuleStamp {
+    /// Distance between stamps, in widths of the style's line, 0.02..50; default 0.25. 0.1 an airbrush, 1.5 a row of beads.
+    #[schemars(range(min = 0.02, max = 50.0))]
+    #[rule = "Distance between stamps, in widths of the style's line, 0.02..50."]
+    pub spacing: f32 = 0.25,
+    /// Size of a stamp, in widths of the stroke, 0.05..50; default 1. 4 leaves on a twig.
+    #[schemars(range(min = 0.05, max = 50.0))]
+    #[rule = "Size of a stamp, in widths of the stroke, 0.05..50."]
+    pub size: f32 = 1.0,
+    /// Greatest share by which one is larger or smaller than others, 0..1; default 0.2. 0 a machine.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    #[rule = "Greatest share by which one stamp is larger or smaller than others, 0..1."]
+    pub jitter: f32 = 0.2,
+    /// Angle of all stamps in degrees, -180..180; default 0.
+    #[schemars(range(min = -180.0, max = 180.0))]
+    #[rule = "Angle of all stamps in degrees, -180..180."]
+    pub angle_deg: f32 = 0.0,
+    /// Greatest angle in degrees by which one is turned against others, 0..180; default 180, any way. 0 all alike.
+    #[schemars(range(min = 0.0, max = 180.0))]
+    #[rule = "Greatest angle in degrees by which one stamp is turned against others, 0..180."]
+    pub turn_deg: f32 = 180.0,
+    /// Whether stamps turn with the stroke; default true. Off holds a calligraphic nib at its angle.
+    #[rule = "Whether stamps turn with the stroke."]
+    pub rake: bool = true,
+    /// Greatest distance from the stroke, in its widths, 0..50; default 0. 0.3 crumbles, 2 is grass beside a path.
+    #[schemars(range(min = 0.0, max = 50.0))]
+    #[rule = "Greatest distance of stamps from the stroke, in its widths, 0..50."]
+    pub scatter: f32 = 0.0,
+}
 }
 
 style_table! {
@@ -54,6 +91,11 @@ pub struct RuleLineBrush {
     #[schemars(range(min = 0.02, max = 2.0))]
     #[rule = "How softly ink begins, 0.02..2."]
     pub soft: Option<f32> = None,
+}
+with {
+    /// How stamps lie along strokes; for mapping `stamps`.
+    #[rule = "How stamps lie along the part's strokes; for mapping `stamps`."]
+    pub stamp: Stamp or RuleStamp,
 }
 }
 

@@ -83,7 +83,7 @@ pub use antialias::Antialias;
 pub use background::{Background, BackgroundError};
 pub use beam::{Beam, BeamOverlap, BeamStop, RuleBeam};
 pub use blend::Blend;
-pub use brush::{BrushMapping, LineBrush, Paper, RuleLineBrush};
+pub use brush::{BrushMapping, LineBrush, Paper, RuleLineBrush, RuleStamp, Stamp};
 pub use color::{Color, ColorError};
 pub use dash::Dash;
 pub use detect::{DepthTest, Detect, IdTest, MASK_LINE_PX, NormalTest, WidthWarning, width_rule};

@@ -88,7 +88,11 @@ impl Brushes<'_> {
             return 0.0;
         }
 
-        // Find the place in the brush's image: beyond free ends it goes on straight.
+        // Find the place in the brush's image: beyond free ends it goes on straight. Stamps end at their sides.
+        let is_stamp = a.flags & InkPoint::STAMP != 0;
+        if is_stamp && foot.along != foot.along.clamp(0.0, 1.0) {
+            return 0.0;
+        }
         let t = foot.along.clamp(0.0, 1.0);
         let mut along = foot.along;
         if before.is_some() {
@@ -123,6 +127,17 @@ impl Brushes<'_> {
         let along_px = brush.texels_along as f32 * (b.u - a.u).abs() / length;
         let texels_per_px = across_px.max(along_px);
         let [nap, mut ink] = self.texel(brush, [u, across(beside)], texels_per_px);
+
+        // A round stamp falls off all around.
+        if a.flags & InkPoint::ROUND != 0 {
+            let off = [0, 1].map(|i| px[i] - (a.px[i] + b.px[i]) * 0.5);
+            let far = (off[0] * off[0] + off[1] * off[1]).sqrt() / half_width;
+            if far >= 1.0 {
+                return 0.0;
+            }
+            let [_, at_rim] = self.texel(brush, [u, across(far)], texels_per_px);
+            ink = ink.min(at_rim);
+        }
 
         // Lift the brush beyond a free end, which is round.
         let mut pressure = a.pressure + (b.pressure - a.pressure) * t;

@@ -44,6 +44,10 @@ impl InkPoint {
     pub const JOINED: u32 = 2;
     /// The image of the brush is turned over, left to right.
     pub const MIRRORED: u32 = 4;
+    /// The piece from here to the next point is a stamp: the image of the brush lies once on it and ends at its sides.
+    pub const STAMP: u32 = 8;
+    /// The stamp is round: its ink falls off all around as it does across the image.
+    pub const ROUND: u32 = 16;
     /// The lowest bit of the number of the brush.
     pub const BRUSH_SHIFT: u32 = 8;
 

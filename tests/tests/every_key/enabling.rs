@@ -180,6 +180,17 @@ const ENABLING: &[(&str, &[&str], &str)] = &[
         "the picture differs from another one",
     ),
     (
+        "line.brush.stamp",
+        &[
+            "line.brush.mapping='stamps'",
+            "line.brush.tip='dry-brush'",
+            "line.brush.stamp.turn_deg=20.0",
+            "line.brush.stamp.spacing=0.6",
+            "line.width.base='8px'",
+        ],
+        "other mappings have no stamps",
+    ),
+    (
         "line.brush.dry",
         &["line.brush.dry=0.9"],
         "the tip's own may be what is tried",

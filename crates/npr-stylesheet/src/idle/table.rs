@@ -439,14 +439,20 @@ pub(super) const ENTRIES: &[Entry] = &[
             "line.brush.dry",
             "line.brush.grain",
             "line.brush.soft",
+            "line.brush.stamp",
         ],
         |c| !c.any(|look| !look.line_brush.is_pen()),
         "line.brush.tip is pen, which has one even ink",
     ),
     entry(
+        &["line.brush.stamp"],
+        |c| !c.any(|look| look.line_brush.mapping == BrushMapping::Stamps),
+        "line.brush.mapping is not stamps",
+    ),
+    entry(
         &["line.brush.stretch"],
         |c| !c.any(|look| look.line_brush.mapping == BrushMapping::Length),
-        "line.brush.mapping is once",
+        "line.brush.mapping is not length",
     ),
     entry(
         &["paper"],
