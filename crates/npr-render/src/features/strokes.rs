@@ -67,6 +67,13 @@ pub(crate) fn find(
     Ok((drawings, report))
 }
 
+/// The points of the strokes that a camera sees, in their order.
+pub(crate) fn points_of(drawings: &[Drawing], view: &View) -> Vec<InkPoint> {
+    let nearness = |depth: f64| view.nearness(depth as f32);
+    let points = |drawing| ink_points(drawing, &nearness);
+    drawings.iter().flat_map(points).collect()
+}
+
 /// The pass that inks strokes, and what the host fills for it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct StrokePasses {
@@ -100,11 +107,7 @@ impl StrokePasses {
         (view, drawings): (&View, &[Drawing]),
         graph_limit: u64,
     ) -> Result<(), RenderError> {
-        let nearness = |depth: f64| view.nearness(depth as f32);
-        let points: Vec<InkPoint> = drawings
-            .iter()
-            .flat_map(|drawing| ink_points(drawing, &nearness))
-            .collect();
+        let points = points_of(drawings, view);
 
         // Make room for more than there are: the next view may have a few more.
         let room = graph.element_count(self.points);
