@@ -627,8 +627,8 @@ impl<S: Session> FrameRenderer<S> {
         Ok(())
     }
 
-    /// Takes the next tile of a frame of the model that was begun, whose kept part starts at `origin`, into a frame that
-    /// begins `top` rows below the whole one. The tiles after it are being drawn meanwhile.
+    /// Takes the next tile of a frame of the model that was begun, whose kept part starts at `origin`, into a frame
+    /// that begins `top` rows below the whole one. The tiles after it are being drawn meanwhile.
     pub fn take_tile(
         &mut self,
         (model, aimed): (&Model, &mut Aimed),

@@ -54,7 +54,8 @@ pub struct RendererOptions {
     /// Whether [`Renderer::draw_bands`](crate::Renderer::draw_bands) draws the frame where it can: then memory is
     /// planned for a single band.
     pub in_bands: bool,
-    /// Whether frames come with [`Frame::layers`](crate::Frame::layers), for compositing.
+    /// Whether frames come with [`Frame::layers`](crate::Frame::layers), for compositing; those that are recorded for
+    /// another program never do.
     pub layers: bool,
 }
 

@@ -415,8 +415,8 @@ impl<'a> Renderer<'a> {
     }
 }
 
-/// Whether a frame can be drawn in bands: layers are made of all of it, and speed lines, a second look and words go over
-/// it as a whole.
+/// Whether a frame can be drawn in bands: layers are made of all of it, and speed lines, a second look and words go
+/// over it as a whole.
 fn draws_bands(plan: &FramePlan) -> bool {
     let (style, tiles) = (&plan.style, plan.tiles());
     let goes_over =

@@ -223,8 +223,8 @@ impl Tile<'_> {
         }
     }
 
-    /// The nearest surface at the samples of a pixel: each triangle is asked once, in the middle of its samples, where it
-    /// is shaded too. The first of equally near ones.
+    /// The nearest surface at the samples of a pixel: each triangle is asked once, in the middle of its samples, where
+    /// it is shaded too. The first of equally near ones.
     fn nearest_surface(&self, [x, y]: [u32; 2]) -> LayerPixel {
         let samples: [(u32, [f32; 2]); 4] = std::array::from_fn(|i| {
             // A single sample counts four times.
@@ -255,8 +255,8 @@ impl Tile<'_> {
 
 /// The number of the stroke that shows at every pixel of a frame, counted from 1; 0 where none does.
 ///
-/// Strokes are drawn once more, on the processor, with their numbers in the place of their colours: the same one wins at
-/// every pixel, but for rounding on devices.
+/// Strokes are drawn once more, on the processor, with their numbers in the place of their colours: the same one wins
+/// at every pixel, but for rounding on devices.
 pub(crate) fn stroke_numbers(mut drawings: Vec<Drawing>, view: &View, size: [u32; 2]) -> Vec<u32> {
     // Give every stroke its number.
     let strokes = drawings.iter_mut().flat_map(|drawing| &mut drawing.strokes);
