@@ -118,25 +118,28 @@ fn a_plane_has_its_depth_and_its_normal() {
     for (engine, camera) in engines().flat_map(|engine| [camera(), parallel()].map(|c| (engine, c)))
     {
         let frame = drawn(engine, &scene, &style(&[]), &camera);
+        let mut exact = 0;
         for (at, pixel) in pixels(&frame) {
             // The nearest and the farthest place among those where samples may lie.
             let offsets = [[-0.25, -0.25], [0.25, -0.25], [-0.25, 0.25], [0.25, 0.25]];
-            let depths = offsets.map(|[dx, dy]| {
+            let depth_at = |[dx, dy]: [f32; 2]| {
                 let [x, y] = middle(at);
                 let [start, step] = ray(&camera, [x + dx, y + dy]);
                 (offset - normal.dot(start)) / normal.dot(step)
-            });
+            };
+            let depths = offsets.map(depth_at);
             let near = depths.iter().copied().fold(f32::MAX, f32::min);
             let far = depths.iter().copied().fold(0.0, f32::max);
             let room = 1e-5 * far;
             let range = near - room..=far + room;
             assert!(range.contains(&pixel.depth), "{at:?}: {pixel:?} {range:?}");
-            assert!(
-                Vec3::from(pixel.normal).distance(normal) < 1e-4,
-                "{at:?}: {pixel:?}"
-            );
+            exact += u32::from((pixel.depth - depth_at([0.0; 2])).abs() <= room);
+            let turned = Vec3::from(pixel.normal).distance(normal);
+            assert!(turned < 1e-4, "{at:?}: {pixel:?}");
             assert_eq!(pixel.object, 1);
         }
+        // Few pixels show two triangles of the sheet.
+        assert!(exact > SIZE[0] * SIZE[1] * 9 / 10, "{exact}");
     }
 }
 
