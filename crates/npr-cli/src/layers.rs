@@ -19,6 +19,9 @@ const REC_709: Chromaticities = Chromaticities {
     white: exr::math::Vec2(0.3127, 0.329),
 };
 
+/// A value of a pixel.
+type Value = fn(&LayerPixel) -> f32;
+
 /// An OpenEXR file of a frame with its layers, which it takes out of it; `object_names` are those of the layer of
 /// object ids.
 ///
@@ -66,13 +69,13 @@ fn channels_of(rgba: Vec<u8>, layers: Vec<LayerPixel>) -> SmallVec<[AnyChannel<F
         let lights = layers.iter().map(|pixel| f16::from_f32(pixel.line[i]));
         AnyChannel::new(name, FlatSamples::F16(lights.collect()))
     });
-    let floats: [(&str, &dyn Fn(&LayerPixel) -> f32); 6] = [
-        ("depth.Z", &|pixel| pixel.depth),
-        ("normal.X", &|pixel| pixel.normal[0]),
-        ("normal.Y", &|pixel| pixel.normal[1]),
-        ("normal.Z", &|pixel| pixel.normal[2]),
-        ("id.object", &|pixel| pixel.object as f32),
-        ("id.line", &|pixel| pixel.stroke as f32),
+    let floats: [(&str, Value); 6] = [
+        ("depth.Z", |pixel| pixel.depth),
+        ("normal.X", |pixel| pixel.normal[0]),
+        ("normal.Y", |pixel| pixel.normal[1]),
+        ("normal.Z", |pixel| pixel.normal[2]),
+        ("id.object", |pixel| pixel.object as f32),
+        ("id.line", |pixel| pixel.stroke as f32),
     ];
     let floats = floats.into_iter().map(|(name, of)| {
         let values = layers.iter().map(of);
@@ -87,9 +90,17 @@ mod tests {
 
     #[test]
     fn the_same_frame_gives_the_same_bytes() {
+        let pixel = LayerPixel {
+            line: [0.0, 0.0, 0.0, 0.5],
+            depth: LayerPixel::FAR,
+            normal: [0.0; 3],
+            object: 1,
+            stroke: 2,
+        };
         let frame = Frame {
             size: [2, 1],
             rgba: vec![255, 0, 0, 255, 0, 0, 255, 128],
+            layers: vec![pixel; 2],
             ..Frame::default()
         };
         let names = BTreeMap::from([(1, "Würfel"), (7, "Ball")]);
