@@ -79,8 +79,7 @@ mod tests {
         let dot = |gray: u8| Frame {
             size: [1, 1],
             rgba: vec![gray; 4],
-            times: Vec::new(),
-            notices: Vec::new(),
+            ..Frame::default()
         };
         let mut sheet = Sheet::new(2, [1, 1]);
         for gray in [10, 20, 30] {

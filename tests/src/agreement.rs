@@ -102,8 +102,7 @@ mod tests {
         Frame {
             size,
             rgba: (0..count).flat_map(|i| [at(i), 0, 0, 255]).collect(),
-            times: Vec::new(),
-            notices: Vec::new(),
+            ..Frame::default()
         }
     }
 

@@ -18,8 +18,7 @@ pub fn beside(frames: &[Frame], columns: u32) -> Frame {
     let mut sheet = Frame {
         size,
         rgba: vec![255; (size[0] * size[1] * 4) as usize],
-        times: Vec::new(),
-        notices: Vec::new(),
+        ..Frame::default()
     };
     for (frame, i) in frames.iter().zip(0..) {
         assert_eq!(frame.size, cell, "pictures of one size");
@@ -49,8 +48,7 @@ pub fn reduced(frame: &Frame, factor: u32) -> Frame {
     Frame {
         size,
         rgba: bytes.collect(),
-        times: Vec::new(),
-        notices: Vec::new(),
+        ..Frame::default()
     }
 }
 
@@ -76,8 +74,7 @@ fn sampled(frame: &Frame, size: [u32; 2], from: impl Fn([u32; 2]) -> [u32; 2]) -
     Frame {
         size,
         rgba: bytes.collect(),
-        times: Vec::new(),
-        notices: Vec::new(),
+        ..Frame::default()
     }
 }
 

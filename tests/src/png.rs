@@ -39,7 +39,6 @@ pub fn read_png(path: &Path) -> Option<Frame> {
     Some(Frame {
         size: [image.width(), image.height()],
         rgba: image.into_raw(),
-        times: Vec::new(),
-        notices: Vec::new(),
+        ..Frame::default()
     })
 }

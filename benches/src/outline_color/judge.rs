@@ -260,8 +260,7 @@ mod tests {
         Frame {
             size: [16, 8],
             rgba,
-            times: Vec::new(),
-            notices: Vec::new(),
+            ..Frame::default()
         }
     }
 

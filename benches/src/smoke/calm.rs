@@ -354,8 +354,7 @@ mod tests {
         Frame {
             size: SIZE,
             rgba: pixels.collect(),
-            times: Vec::new(),
-            notices: Vec::new(),
+            ..Frame::default()
         }
     }
 

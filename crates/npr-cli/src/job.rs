@@ -14,6 +14,15 @@ use std::path::{Path, PathBuf};
 /// Longest side of a picture, in pixels.
 const SIDE_LIMIT: u32 = 32_768;
 
+/// The formats of pictures that `npr render` writes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PictureFormat {
+    /// Colours alone.
+    Png,
+    /// OpenEXR, with layers for compositing.
+    Exr,
+}
+
 /// One picture to draw. Everything that can be checked without reading the scene is already checked.
 pub struct Job<'a> {
     /// The arguments, for everything that needs no resolving.
@@ -22,6 +31,8 @@ pub struct Job<'a> {
     pub source: Source,
     /// The destination of the picture.
     pub output: Output,
+    /// The format of its file.
+    pub format: PictureFormat,
     /// The resolved style.
     pub look: Look,
     /// The options of the renderer.
@@ -35,15 +46,19 @@ impl<'a> Job<'a> {
     pub fn resolve(args: &'a RenderArguments) -> Result<Self, Fault> {
         let source = Source::of(args.scene.as_deref().unwrap_or(Path::new("-")));
         let path = output_path(args.output.as_deref(), &source, "png")?;
-        check_ending(&path)?;
+        let format = format_of(&path)?;
         let output = Output::of(&path)?;
         let external = args.drawing.allow_external.as_deref();
         let look = Look::resolve(&args.look(), external)?.with_smoke(&args.drawing.volumes);
-        let options = renderer_options(&args.drawing, &look)?;
+        let options = RendererOptions {
+            layers: format == PictureFormat::Exr,
+            ..renderer_options(&args.drawing, &look)?
+        };
         Ok(Self {
             args,
             source,
             output,
+            format,
             look,
             options,
             cache: args.cache.folder()?,
@@ -85,6 +100,21 @@ pub fn check_size(size: Size) -> Result<(), Fault> {
         "picture side {side} exceeds the limit of {SIDE_LIMIT} pixels, and no option lifts that"
     );
     Err(Fault::new(Exit::Limit, message))
+}
+
+/// The format of the picture that is written to `path`; `-` takes a .png.
+fn format_of(path: &Path) -> Result<PictureFormat, Fault> {
+    if path.as_os_str() == "-" || has_ending(path, "png") {
+        return Ok(PictureFormat::Png);
+    }
+    if has_ending(path, "exr") {
+        return Ok(PictureFormat::Exr);
+    }
+    let message = format!(
+        "cannot write {}: pictures are written as .png, or as .exr with layers, lines as .svg too",
+        quoted(path)
+    );
+    Err(Fault::new(Exit::Usage, message))
 }
 
 /// Refuses file names that do not end in .png; `-` is allowed.

@@ -33,6 +33,7 @@ mod input;
 mod interrupt;
 mod inventory;
 mod job;
+mod layers;
 mod line_file;
 mod line_job;
 mod lines;

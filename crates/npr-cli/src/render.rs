@@ -8,7 +8,8 @@ use crate::ending::has_ending;
 use crate::engine::{Drawn, EngineChoice};
 use crate::fault::Fault;
 use crate::idle;
-use crate::job::Job;
+use crate::job::{Job, PictureFormat};
+use crate::layers;
 use crate::lines;
 use crate::look::Look;
 use crate::message;
@@ -62,7 +63,7 @@ fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Frame>, Fault> {
 
     // Draw it, whole or band by band into its file.
     let drawn = draw_frame((job, &engine), &prepared, &options, &camera, progress)?;
-    let (frame, is_written) = match drawn.picture {
+    let (mut frame, is_written) = match drawn.picture {
         Picture::Whole(frame) => (frame, false),
         Picture::InBands(written) => (written?, true),
     };
@@ -72,9 +73,9 @@ fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Frame>, Fault> {
 
     // Write a whole picture.
     if !is_written {
-        let keep_alpha = job.look.is_transparent();
-        let bytes = progress.step("encode", || {
-            encoder::png(frame.size, &frame.rgba, keep_alpha)
+        let bytes = progress.step("encode", || match job.format {
+            PictureFormat::Png => encoder::png(frame.size, &frame.rgba, job.look.is_transparent()),
+            PictureFormat::Exr => layers::exr(&mut frame, &prepared.model.object_names()),
         })?;
         progress.step("write", || job.output.write(&bytes))?;
     }

@@ -100,6 +100,13 @@ pub fn linear_rgba(srgb: [f32; 4]) -> [f32; 4] {
     ]
 }
 
+/// Linear light, premultiplied with alpha, of sRGB bytes with straight alpha.
+pub fn premultiplied_light([r, g, b, a]: [u8; 4]) -> [f32; 4] {
+    let alpha = f32::from(a) / 255.0;
+    let [r, g, b] = [r, g, b].map(|byte| linear_from_byte(byte) * alpha);
+    [r, g, b, alpha]
+}
+
 /// The largest difference of a channel of two colours.
 pub fn largest_difference(a: [f32; 3], b: [f32; 3]) -> f32 {
     (a[0] - b[0])

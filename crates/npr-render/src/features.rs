@@ -13,6 +13,7 @@
 pub(crate) mod background_contrast;
 pub(crate) mod beams;
 pub(crate) mod blending;
+pub(crate) mod compositing;
 pub(crate) mod hull;
 pub(crate) mod lettering;
 pub(crate) mod line_features;

@@ -1,14 +1,18 @@
 //! A finished picture.
 
+use crate::layer_pixel::LayerPixel;
 use npr_gpu::engine::PassTime;
 
 /// A finished picture and how long its passes took.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Frame {
     /// Width and height in pixels.
     pub size: [u32; 2],
     /// sRGB bytes with straight alpha, row by row from the top.
     pub rgba: Vec<u8>,
+    /// What every pixel holds beside its colour, where [`RendererOptions::layers`](crate::RendererOptions::layers) asks
+    /// for it; else empty. Speed lines, words and a second look of a blend are in the colours alone.
+    pub layers: Vec<LayerPixel>,
     /// Time per pass in running order, summed over tiles.
     pub times: Vec<PassTime>,
     /// What was drawn in another way than the style asks, for the user.
@@ -22,6 +26,7 @@ impl Frame {
         Self {
             size,
             rgba: vec![0; count],
+            layers: Vec::new(),
             times: Vec::new(),
             notices: Vec::new(),
         }

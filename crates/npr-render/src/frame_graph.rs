@@ -200,6 +200,19 @@ impl FrameGraph {
             .draw(&raster::DRAW_IDS, &bound, &[ids, depths], true);
     }
 
+    /// Triangle numbers and depths of colour samples without hulls, drawn again where the frame has any.
+    pub fn ids_without_hulls(&mut self, grids: &Grids, has_hulls: bool) -> [ResourceId; 2] {
+        if !has_hulls {
+            return [self.ids, self.depths];
+        }
+        let ids = self.graph.image("bare ids", Format::U32, grids.color());
+        let depths = self
+            .graph
+            .image("bare depths", Format::Depth, grids.color());
+        self.draw_ids(self.color_window, ids, depths);
+        [ids, depths]
+    }
+
     /// Adds the pass that composes a picture: the colours of the triangles in `ids` with the layers over them, by the
     /// settings in `compose`. `sides` are the pictures of both sides of lines, for those whose colour follows what lies
     /// behind.

@@ -4,6 +4,7 @@ use crate::beam_light::beam_lights;
 use crate::error::RenderError;
 use crate::features::background_contrast::{BackgroundContrast, ContrastPasses};
 use crate::features::beams;
+use crate::features::compositing::{self, CompositingPasses, Seen};
 use crate::features::hull;
 use crate::features::line_features::LineFeatures;
 use crate::features::screen_lines::ScreenLines;
@@ -23,7 +24,7 @@ use crate::tiles::Tiles;
 use glam::Vec3;
 use npr_core::budget::Budget;
 use npr_core::camera::Camera;
-use npr_core::geometry::{NONE, Part, Vertex};
+use npr_core::geometry::{NONE, Part, PosedVertex, Vertex};
 use npr_core::window::{View, Window};
 use npr_gpu::cost::{PassCost, copy_cost, pass_costs};
 use npr_gpu::engine::{Engine, EngineError, IN_FLIGHT, Session};
@@ -56,6 +57,8 @@ pub(crate) struct Needs {
     tiles: Tiles,
     pub grids: Grids,
     beams: bool,
+    /// Whether layers for compositing are made.
+    layers: bool,
 }
 
 /// A frame that is planned: nothing of it has asked an engine for anything.
@@ -76,6 +79,7 @@ pub(crate) struct Passes {
     shadows: Shadows,
     pub smoke: Option<SmokePasses>,
     contrast: ContrastPasses,
+    compositing: Option<CompositingPasses>,
 }
 
 /// Depths of beams, where there are any, and of smoke.
@@ -93,6 +97,8 @@ pub(crate) struct FrameRenderer<S = Box<dyn Session>> {
 pub(crate) struct Aimed {
     pub view: View,
     submitted: u32,
+    /// Vertices in the view, once its first tile was taken, where layers are made of them.
+    posed: Vec<PosedVertex>,
 }
 
 impl Needs {
@@ -125,6 +131,10 @@ impl Needs {
             (true, false) => LineFeatures::NONE,
         };
         features.contrast = contrast.is_on;
+        if options.layers {
+            let told = compositing::notices(style, features, !model.triangles.is_empty());
+            styled.inked.notices.extend(told);
+        }
 
         // Cut the frame into tiles, with as much room around each as lines and smoke reach.
         let height_px = options.size[1] as f32;
@@ -174,6 +184,7 @@ impl Needs {
             tiles,
             grids,
             beams,
+            layers: options.layers,
         }
     }
 }
@@ -302,6 +313,9 @@ impl Passes {
         };
         let sides = contrast.plan(&mut frame, grids, features, &layers);
         frame.compose_frame(frame.compose, frame.ids, &layers, sides, frame.frame);
+        let compositing = needs
+            .layers
+            .then(|| CompositingPasses::plan(&mut frame, grids, features, &layers, sides));
         let passes = Self {
             frame,
             lines,
@@ -309,6 +323,7 @@ impl Passes {
             shadows,
             smoke,
             contrast,
+            compositing,
         };
         (passes, (beam_depths, layers.smoke[1]))
     }
@@ -360,7 +375,10 @@ impl FramePlan {
         budget.take("the picture", width * rows as usize, 4)?;
         let planned = self.passes.frame.graph.planned_bytes() as usize;
         budget.take("the plan of the frame", planned, 1)?;
-        Ok(())
+        match &self.passes.compositing {
+            Some(passes) => passes.take_memory((budget, self.graph()), self.options.size),
+            None => Ok(()),
+        }
     }
 
     /// Prepares the passes on an engine, and uploads what does not change with the camera.
@@ -456,6 +474,13 @@ impl<S: Session> FrameRenderer<S> {
         tiles.kept == tiles.frame && turned > CUT_COS && moved < CUT_RADII * model.radius()
     }
 
+    /// Base width of lines in a view, in pixels.
+    pub fn base_px(&self, view: &View, camera: &Camera, model: &Model) -> f32 {
+        let FramePlan { style, options, .. } = &self.plan;
+        let world_px = look::nearest_world_px(view, camera, model);
+        look::base_px(style, options.size[1], options.dpi, world_px)
+    }
+
     /// Hands over how a camera sees the scene, and the strokes that were found in this view.
     pub fn aim(
         &mut self,
@@ -476,7 +501,7 @@ impl<S: Session> FrameRenderer<S> {
 
         // Settle the widths of lines and the rules of their colours in this view.
         let world_px = look::nearest_world_px(&view, camera, model);
-        let base_px = look::base_px(style, size[1], dpi, world_px);
+        let base_px = self.base_px(&view, camera, model);
         let half = look::largest_half_width(style, &needs.styled.parts, base_px);
         let reach_px = half.ceil().min(LARGEST_PX) as u32 + 1;
         let outline = look::outline(style, model.radius(), size[1], dpi, reach_px);
@@ -515,6 +540,9 @@ impl<S: Session> FrameRenderer<S> {
         write(session, frame.compose, &[compose])?;
         write(session, frame.lights, &[lights])?;
         passes.contrast.upload_view(session, rules, &compose)?;
+        if let Some(compositing) = &passes.compositing {
+            compositing.upload_view(session, &compose)?;
+        }
         passes.shadows.upload_view(session, &lights)?;
         if let (Some(passes), Some(smoke)) = (smoke_passes, &options.smoke) {
             let moment = SmokeMoment {
@@ -592,7 +620,11 @@ impl<S: Session> FrameRenderer<S> {
         strokes: &[Drawing],
     ) -> Result<Aimed, RenderError> {
         let view = self.aim(model, camera, strokes)?;
-        let mut aimed = Aimed { view, submitted: 0 };
+        let mut aimed = Aimed {
+            view,
+            submitted: 0,
+            posed: Vec::new(),
+        };
         self.submit_tiles(&mut aimed)?;
         Ok(aimed)
     }
@@ -602,17 +634,22 @@ impl<S: Session> FrameRenderer<S> {
         while self.session.in_flight() < IN_FLIGHT && aimed.submitted < self.plan.tiles().count() {
             let origin = self.plan.tiles().origin(aimed.submitted);
             self.aim_tile(&aimed.view, origin)?;
-            self.session.submit(&[self.plan.passes.frame.frame])?;
+            let passes = &self.plan.passes;
+            let mut read = vec![passes.frame.frame];
+            if let Some(compositing) = &passes.compositing {
+                read.extend(compositing.reads(aimed.submitted == 0));
+            }
+            self.session.submit(&read)?;
             aimed.submitted += 1;
         }
         Ok(())
     }
 
-    /// Takes the next tile of a frame that was begun, whose kept part starts at `origin`, into a frame that begins
-    /// `top` rows below the whole one. The tiles after it are being drawn meanwhile.
+    /// Takes the next tile of a frame of the model that was begun, whose kept part starts at `origin`, into a frame
+    /// that begins `top` rows below the whole one. The tiles after it are being drawn meanwhile.
     pub fn take_tile(
         &mut self,
-        aimed: &mut Aimed,
+        (model, aimed): (&Model, &mut Aimed),
         (origin, top): ([u32; 2], u32),
         frame: &mut Frame,
     ) -> Result<(), EngineError> {
@@ -625,7 +662,21 @@ impl<S: Session> FrameRenderer<S> {
         let (passes, tiles) = (&self.plan.passes, self.plan.tiles());
         let (size, margin, kept) = (tiles.size(), [tiles.margin; 2], tiles.kept);
         let at = [origin[0], origin[1] - top];
-        frame.paste(&read.take(passes.frame.frame), size[0], margin, at, kept);
+        let shown = read.take(passes.frame.frame);
+        frame.paste(&shown, size[0], margin, at, kept);
+
+        // Make layers of the rest.
+        if let Some(compositing) = &passes.compositing {
+            if origin == [0, 0] {
+                aimed.posed = compositing.take_posed(model, &mut read);
+            }
+            let seen = Seen {
+                model,
+                view: &aimed.view,
+                posed: &aimed.posed,
+            };
+            compositing.paste(seen, (&shown, &mut read), (tiles, origin), frame);
+        }
         Ok(())
     }
 

@@ -41,6 +41,7 @@ mod id_map;
 mod instance;
 mod joined;
 mod kept;
+mod layer_pixel;
 mod light;
 mod line_backdrop;
 mod line_colors;
@@ -68,6 +69,7 @@ pub use facts::facts_of;
 pub use features::lettering::Lettering;
 pub use frame::Frame;
 pub use id_map::apply_id_maps;
+pub use layer_pixel::LayerPixel;
 pub use lines::{
     KindSet, LineModel, LineModelOptions, LineOptions, LineRenderer, LineSource, PaintedLines,
 };

@@ -21,6 +21,7 @@ impl<'a> LineRenderer<'a> {
                 size: drawing.size,
                 dpi: drawing.dpi,
                 smoke: lines.smoke().cloned(),
+                layers: false,
                 ..options.clone()
             };
             Renderer::new(engine, model, &style.without_lines(), &of_frame)?.draw(camera)

@@ -16,6 +16,7 @@ use npr_core::texture::TextureStore;
 use npr_mesh::pose::Matrix;
 use npr_scene::{Node, Part, Scene};
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 use std::path::Path;
 
 /// A scene prepared for drawing: one list of vertices, triangles and edges, whatever the camera and the style.
@@ -235,6 +236,14 @@ impl Model {
         self.lights = file_light::of_scene(scene, self.bounds);
         self.cameras = placement::cameras_of(scene);
         Ok(())
+    }
+
+    /// The names of objects with surfaces, by their numbers, which count from 1.
+    pub fn object_names(&self) -> BTreeMap<u32, &str> {
+        let parts = self.parts.iter();
+        parts
+            .map(|part| (part.object + 1, part.object_name.as_str()))
+            .collect()
     }
 
     /// Number of triangles, counted for every instance.

@@ -54,10 +54,14 @@ pub struct RendererOptions {
     /// Whether [`Renderer::draw_bands`](crate::Renderer::draw_bands) draws the frame where it can: then memory is
     /// planned for a single band.
     pub in_bands: bool,
+    /// Whether frames come with [`Frame::layers`](crate::Frame::layers), for compositing; those that are recorded for
+    /// another program never do.
+    pub layers: bool,
 }
 
 impl RendererOptions {
-    /// Options for a frame of `size` pixels: 96 pixels per inch, no pictures, fonts or smoke, 4 GiB.
+    /// Options for a frame of `size` pixels: 96 pixels per inch, no pictures, fonts, smoke or layers, 4
+    /// GiB.
     pub fn new(size: [u32; 2]) -> Self {
         Self {
             size,
@@ -70,6 +74,7 @@ impl RendererOptions {
             memory_limit: 4 << 30,
             tile_pixels: TILE_PIXELS,
             in_bands: false,
+            layers: false,
         }
     }
 }

@@ -2,12 +2,14 @@
 
 use crate::error::RenderError;
 use crate::features::blending::Blending;
+use crate::features::compositing::stroke_numbers;
 use crate::features::lettering::Lettering;
 use crate::features::speed_lines::SpeedLines;
 use crate::features::strokes::{self, StrokeReport};
 use crate::frame::Frame;
 use crate::frame_graph::pixel_count;
 use crate::frame_renderer::{Aimed, FramePlan, FrameRenderer};
+use crate::layer_pixel::LayerPixel;
 use crate::lines::LineRenderer;
 use crate::look::StyledModel;
 use crate::model::Model;
@@ -52,6 +54,8 @@ pub(crate) struct Begun {
     aimed: Aimed,
     /// How its strokes were found.
     strokes: StrokeReport,
+    /// The number of the stroke at every pixel, where layers have them.
+    stroke_numbers: Vec<u32>,
     /// The same frame in the other look of a blend.
     other: Option<Box<Begun>>,
 }
@@ -91,7 +95,7 @@ impl<'a> RendererPlan<'a> {
         // Plan the frame.
         let mut frames = FramePlan::new(model, style, options, styled);
         let mut budget = Budget::new(options.memory_limit);
-        let rows = match options.in_bands && draws_bands(style, frames.tiles()) {
+        let rows = match options.in_bands && draws_bands(&frames) {
             true => frames.tiles().kept[1].min(options.size[1]),
             false => options.size[1],
         };
@@ -114,6 +118,7 @@ impl<'a> RendererPlan<'a> {
         if let Some(blending) = Blending::needs(style, options)? {
             let left = RendererOptions {
                 memory_limit: options.memory_limit - planned_bytes,
+                layers: false,
                 ..options.clone()
             };
             let other = Self::new(model, &style.blended_with()?, &left, has_lines)?;
@@ -231,9 +236,10 @@ impl<'a> Renderer<'a> {
         &self.frames.plan.styled().inked.notices
     }
 
-    /// Whether the frame is drawn in tiles and nothing goes over it as a whole, so that [`Self::draw_bands`] draws it.
+    /// Whether the frame is drawn in tiles, without layers, and nothing goes over it as a whole, so that
+    /// [`Self::draw_bands`] draws it.
     pub fn draws_bands(&self) -> bool {
-        draws_bands(&self.frames.plan.style, self.frames.plan.tiles())
+        draws_bands(&self.frames.plan)
     }
 
     /// Draws the model as a camera sees it, one row of tiles after the other, and hands each to `take` as a frame as
@@ -270,8 +276,8 @@ impl<'a> Renderer<'a> {
             let rows = tiles.kept[1].min(height - top);
             let mut band = Frame::new([width, rows]);
             for origin in tiles.origins().filter(|origin| origin[1] == top) {
-                let at = (origin, top);
-                self.frames.take_tile(&mut aimed, at, &mut band)?;
+                let (aimed, at) = ((self.model, &mut aimed), (origin, top));
+                self.frames.take_tile(aimed, at, &mut band)?;
                 self.tell_of(&tiles, origin);
             }
             reported.add_times(&band.times);
@@ -318,9 +324,19 @@ impl<'a> Renderer<'a> {
             Some((other, _)) => Some(Box::new(other.begin(camera)?)),
             None => None,
         };
+        let options = &self.frames.plan.options;
+        let stroke_numbers = match options.layers && !drawings.is_empty() {
+            true => {
+                let base_px = self.frames.base_px(&aimed.view, camera, self.model);
+                let inked = (self.frames.plan.styled(), base_px);
+                stroke_numbers(drawings, &aimed.view, inked, options.size)
+            }
+            false => Vec::new(),
+        };
         Ok(Begun {
             aimed,
             strokes,
+            stroke_numbers,
             other,
         })
     }
@@ -328,14 +344,22 @@ impl<'a> Renderer<'a> {
     /// Takes the frame that was begun first of those that are not finished, and draws what goes over it as a whole.
     pub(crate) fn finish(&mut self, mut begun: Begun) -> Result<Frame, RenderError> {
         // Take the tiles.
-        let size = self.frames.plan.options.size;
+        let RendererOptions { size, layers, .. } = self.frames.plan.options;
         let mut frame = Frame::new(size);
+        if layers {
+            frame.layers = vec![LayerPixel::EMPTY; pixel_count(size)];
+        }
         frame.notices.extend_from_slice(self.notices());
         let tiles = *self.frames.plan.tiles();
         for origin in tiles.origins() {
-            let (aimed, at) = (&mut begun.aimed, (origin, 0));
+            let (aimed, at) = ((self.model, &mut begun.aimed), (origin, 0));
             self.frames.take_tile(aimed, at, &mut frame)?;
             self.tell_of(&tiles, origin);
+        }
+        for (pixel, number) in frame.layers.iter_mut().zip(&begun.stroke_numbers) {
+            if pixel.line[3] > 0.0 {
+                pixel.stroke = *number;
+            }
         }
         begun.strokes.tell(&mut frame);
 
@@ -395,9 +419,11 @@ impl<'a> Renderer<'a> {
     }
 }
 
-/// Whether a frame in such tiles can be drawn in bands: speed lines, a second look and words go over it as a whole.
-fn draws_bands(style: &Style, tiles: &Tiles) -> bool {
+/// Whether a frame can be drawn in bands: layers are made of all of it, and speed lines, a second look and words go
+/// over it as a whole.
+fn draws_bands(plan: &FramePlan) -> bool {
+    let (style, tiles) = (&plan.style, plan.tiles());
     let goes_over =
         !style.trails().is_empty() || style.blend.shows() || !style.lettering.is_empty();
-    tiles.kept != tiles.frame && !goes_over
+    tiles.kept != tiles.frame && !goes_over && !plan.options.layers
 }

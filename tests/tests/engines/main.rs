@@ -6,6 +6,7 @@ mod backgrounds;
 mod hulls_and_words;
 mod id_maps;
 mod kernels;
+mod layers;
 mod lines;
 mod models;
 mod pixel_strokes;

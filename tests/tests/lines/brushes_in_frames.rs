@@ -9,7 +9,7 @@ use npr_style::brush::Tip;
 use npr_stylesheet::Style;
 use npr_tests::Agreement;
 use npr_tests::comic::{SIZE, front};
-use npr_tests::{Object, device, lines, placed, scene_of};
+use npr_tests::{Ink, Object, device, lines, placed, scene_of};
 
 fn scene() -> Scene {
     scene_of(&[
@@ -77,9 +77,18 @@ fn serde_name(tip: Tip) -> String {
 
 #[test]
 fn engines_draw_the_same_brushes_in_tiles_or_whole() {
-    for tip in ["dry-brush", "pencil", "airbrush", "sketch"] {
+    let looks = [
+        ("dry-brush", "length"),
+        ("pencil", "once"),
+        ("airbrush", "stamps"),
+        ("sketch", "length"),
+        ("charcoal", "stamps"),
+    ];
+    for (tip, mapping) in looks {
         let style = thick(&[
             &format!("line.brush.tip={tip}"),
+            &format!("line.brush.mapping={mapping}"),
+            "line.brush.stamp.scatter=0.4",
             "line.width.taper.end=60px",
         ]);
         let options = RendererOptions::new(SIZE);
@@ -96,9 +105,46 @@ fn engines_draw_the_same_brushes_in_tiles_or_whole() {
         if let Some(device) = device() {
             let there = drawn_by(device, &style, &options).unwrap();
             let agreement = Agreement::between(&whole, &there, 2);
-            assert!(agreement.holds(), "{tip}: {agreement:?}");
+            assert!(agreement.holds(), "{tip}: {agreement}");
         }
     }
+}
+
+/// Stamps farther apart than they are long lie alone; scattered ones lie beside the line.
+#[test]
+fn stamps_lie_alone_or_beside_the_line() {
+    let blob: Vec<u8> = (0..16 * 16)
+        .flat_map(|i| {
+            let [x, y] = [i % 16, i / 16].map(|v| v as f32 - 7.5);
+            [255, 255, 255, if x * x + y * y < 49.0 { 255 } else { 0 }]
+        })
+        .collect();
+    let with = |settings: &[&str]| {
+        let mut options = RendererOptions::new(SIZE);
+        let picture = Picture {
+            size: [16, 16],
+            rgba: blob.clone(),
+        };
+        options.pictures.insert("blob.png".to_owned(), picture);
+        let fixed = [
+            "line.brush.image=blob.png",
+            "line.brush.mapping=stamps",
+            "line.brush.dry=0.0",
+        ];
+        let style = thick(&[&fixed, settings].concat());
+        Ink::of_strokes(&drawn_by(&Processor, &style, &options).unwrap())
+    };
+    let apart = [
+        "line.brush.stamp.spacing=2.0",
+        "line.brush.stamp.jitter=0.0",
+    ];
+    let beads = with(&apart).components();
+    let pen = Ink::of_strokes(&drawn(&[]));
+    // Outlines of 2 pi 58 px and about 2/3 of 2 pi 41, a bead every 18 px.
+    assert!((20..45).contains(&beads.len()), "{} beads", beads.len());
+    let scattered = with(&[&apart[..], &["line.brush.stamp.scatter=3.0"]].concat());
+    assert!(scattered.without(&pen.grown(3)).count() > 100);
+    assert!(scattered.without(&pen.grown(33)).count() == 0);
 }
 
 #[test]

@@ -8,6 +8,7 @@ mod files;
 mod id_maps;
 mod idle;
 mod info;
+mod layers;
 mod lines;
 mod looks;
 mod odd_bitmaps;

@@ -44,8 +44,14 @@ fn wrong_command_lines_exit_with_2_and_leave_nothing() {
             &["render", "scene.obj", "--memory-limit", "much"],
             "number of bytes",
         ),
-        (&["render", "scene.obj", "-o", "out.bmp"], ".png only"),
-        (&["render", "scene.obj", "-o", "out"], ".png only"),
+        (
+            &["render", "scene.obj", "-o", "out.bmp"],
+            "or as .exr with layers",
+        ),
+        (
+            &["render", "scene.obj", "-o", "out"],
+            "or as .exr with layers",
+        ),
         (&["render", "-"], "-o"),
     ];
     Workplace::with_scene().assert_refused(cases);

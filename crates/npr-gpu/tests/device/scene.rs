@@ -550,7 +550,8 @@ pub fn strokes() -> Vec<InkPoint> {
             0
         };
         let drawn = InkPoint::GOES_ON | if stroke % 5 == 0 { 0 } else { InkPoint::JOINED };
-        let brush = number << InkPoint::BRUSH_SHIFT | mirrored;
+        let stamp = [0, InkPoint::STAMP, InkPoint::STAMP | InkPoint::ROUND][stroke % 7 % 3];
+        let brush = number << InkPoint::BRUSH_SHIFT | mirrored | stamp;
         let mut px = FRAME_PX.map(|side| (1.2 * random.unit() - 0.1) * side as f32);
         for i in 0..count {
             points.push(InkPoint {

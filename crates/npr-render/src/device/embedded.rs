@@ -219,6 +219,10 @@ fn plan(
 ) -> Result<(FramePlan, [ResourceId; 2]), RenderError> {
     check_size(options.size)?;
     check_recorded(style)?;
+    let options = &RendererOptions {
+        layers: false,
+        ..options.clone()
+    };
     let (style, notice) = without_lines(style);
     let style = Style {
         background: Background::Transparent,

@@ -205,7 +205,7 @@ impl ContrastPasses {
         let pixels = grids.output_pixels();
         let tiles = grids.output.map(|side| side.div_ceil(TILE));
         let tile_count = tiles[0] as usize * tiles[1] as usize;
-        let [ids, depths] = bare_ids(frame, grids, features);
+        let [ids, depths] = frame.ids_without_hulls(grids, features.hull);
         let graph = &mut frame.graph;
         let busy = graph.image("busy", Format::Rgba8, tiles);
         let bare = graph.buffer::<u32>("bare", pixels);
@@ -316,17 +316,4 @@ impl ContrastPasses {
         let window = Window::over(view.frame_px, corner_px, covered, tiles);
         write(session, borders.tile_window, &[window])
     }
-}
-
-/// Triangle numbers and depths without hulls.
-fn bare_ids(frame: &mut FrameGraph, grids: &Grids, features: LineFeatures) -> [ResourceId; 2] {
-    if !features.hull {
-        return [frame.ids, frame.depths];
-    }
-    let ids = frame.graph.image("bare ids", Format::U32, grids.color());
-    let depths = frame
-        .graph
-        .image("bare depths", Format::Depth, grids.color());
-    frame.draw_ids(frame.color_window, ids, depths);
-    [ids, depths]
 }

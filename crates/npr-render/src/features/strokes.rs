@@ -69,6 +69,18 @@ pub(crate) fn find(
     Ok((drawings, report))
 }
 
+/// The points of the strokes that a camera sees, in their order, with brushes that lie on them by the base width.
+pub(crate) fn points_of(
+    drawings: &[Drawing],
+    view: &View,
+    (brushes, base_px): (&Brushes, f32),
+) -> Vec<InkPoint> {
+    let nearness = |depth: f64| view.nearness(depth as f32);
+    let lay_of = |stroke: &Stroke| brushes.lay_of(stroke, base_px);
+    let points = |drawing| ink_points(drawing, &nearness, &lay_of);
+    drawings.iter().flat_map(points).collect()
+}
+
 /// The pass that inks strokes, and what the host fills for it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct StrokePasses {
@@ -112,7 +124,7 @@ impl StrokePasses {
         }
     }
 
-    /// Hands over the strokes that a camera sees, and how `brushes` lie on them where the base width is `base_px`.
+    /// Hands over the strokes that a camera sees, with brushes that lie on them by the base width.
     ///
     /// Where there is less room than they take, the graph and its session get more, up to `graph_limit` bytes in all.
     pub fn upload_view(
@@ -120,15 +132,10 @@ impl StrokePasses {
         session: &mut dyn Session,
         graph: &mut Graph,
         (view, drawings): (&View, &[Drawing]),
-        (brushes, base_px): (&Brushes, f32),
+        brushes: (&Brushes, f32),
         graph_limit: u64,
     ) -> Result<(), RenderError> {
-        let nearness = |depth: f64| view.nearness(depth as f32);
-        let lay_of = |stroke: &Stroke| brushes.lay_of(stroke, base_px);
-        let points: Vec<InkPoint> = drawings
-            .iter()
-            .flat_map(|drawing| ink_points(drawing, &nearness, &lay_of))
-            .collect();
+        let points = points_of(drawings, view, brushes);
 
         // Make room for more than there are: the next view may have a few more.
         let room = graph.element_count(self.points);

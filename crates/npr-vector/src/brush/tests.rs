@@ -174,6 +174,37 @@ fn a_free_end_is_round_however_the_image_ends() {
     }
 }
 
+#[test]
+fn a_stamp_shows_its_image_once_and_ends_at_its_sides() {
+    // Ink in the corner of the image where it begins, on its left.
+    let corner = image([16, 16], |u, v| [1.0, f32::from(u < 0.5 && v < 0.5)]);
+    let mut points = stroke(&[[20.0, 32.0], [40.0, 32.0]], 10.0, 20.0);
+    points
+        .iter_mut()
+        .for_each(|point| point.flags &= !InkPoint::JOINED);
+    let stamp = |bits: u32| {
+        let with_bits = points.iter().map(|point| InkPoint {
+            flags: point.flags | InkPoint::STAMP | bits,
+            ..*point
+        });
+        with_bits.collect::<Vec<_>>()
+    };
+    let picture = drawn(&stamp(0), &corner);
+    let inked = [(22, 24), (28, 30)].map(|(x, y)| at(&picture, x, y));
+    let bare = [(34, 24), (22, 36), (18, 32), (43, 30)].map(|(x, y)| at(&picture, x, y));
+    assert_eq!(
+        (inked, bare),
+        ([1.0; 2], [0.0; 4]),
+        "nothing goes on beyond its ends"
+    );
+
+    // Round ones fall off towards their corners.
+    let even = image([16, 16], |_, _| [1.0, 1.0]);
+    let [square, round] = [0, InkPoint::ROUND].map(|bits| drawn(&stamp(bits), &even));
+    assert_eq!([at(&square, 21, 23), at(&round, 21, 23)], [1.0, 0.0]);
+    assert_eq!([at(&square, 30, 32), at(&round, 30, 32)], [1.0; 2]);
+}
+
 fn place() -> impl Strategy<Value = [f32; 2]> {
     prop::array::uniform2(12f32..52.0)
 }
