@@ -131,8 +131,8 @@ impl Brushes<'_> {
         // A round stamp falls off all around.
         if a.flags & InkPoint::ROUND != 0 {
             let off = [0, 1].map(|i| px[i] - (a.px[i] + b.px[i]) * 0.5);
-            let far = (off[0] * off[0] + off[1] * off[1]).sqrt() / half_width;
-            if far >= 1.0 {
+            let far = (off[0] * off[0] + off[1] * off[1]).sqrt();
+            if far >= half_width {
                 return 0.0;
             }
             let [_, at_rim] = self.texel(brush, [u, across(far)], texels_per_px);

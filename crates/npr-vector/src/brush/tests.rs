@@ -203,6 +203,17 @@ fn a_stamp_shows_its_image_once_and_ends_at_its_sides() {
     let [square, round] = [0, InkPoint::ROUND].map(|bits| drawn(&stamp(bits), &even));
     assert_eq!([at(&square, 21, 23), at(&round, 21, 23)], [1.0, 0.0]);
     assert_eq!([at(&square, 30, 32), at(&round, 30, 32)], [1.0; 2]);
+
+    // All around they are as the image is across.
+    let soft = image([16, 16], |_, v| {
+        [1.0, (1.0 - (2.0 * v - 1.0).abs()).max(0.0)]
+    });
+    let picture = drawn(&stamp(InkPoint::ROUND), &soft);
+    let [along, beside] = [at(&picture, 35, 32), at(&picture, 30, 37)];
+    assert!(
+        (0.35..0.55).contains(&along) && (along - beside).abs() < 0.02,
+        "{along} {beside}"
+    );
 }
 
 fn place() -> impl Strategy<Value = [f32; 2]> {
@@ -239,7 +250,7 @@ proptest! {
         prop_assume!((a[0] - b[0]).abs() + (a[1] - b[1]).abs() > 10.0);
         cuts.sort_by(f32::total_cmp);
         cuts.dedup_by(|a, b| (*a - *b).abs() < 1e-2);
-        let waves = image([64, 16], |u, v| [(u * 4.0).fract(), 0.5 + 0.5 * v]);
+        let waves = image([64, 16], |u, v| [((u * 4.0).fract() * 2.0 - 1.0).abs(), 0.5 + 0.5 * v]);
         let dry = (Brush { dry: 1.5, soft: 0.5, ..waves.0 }, waves.1);
         let cut = cuts.iter().map(|t| [0, 1].map(|i| a[i] + (b[i] - a[i]) * t));
         let places: Vec<_> = std::iter::once(a).chain(cut).chain([b]).collect();
