@@ -47,11 +47,15 @@ impl<'a> Job<'a> {
         let source = Source::of(args.scene.as_deref().unwrap_or(Path::new("-")));
         let path = output_path(args.output.as_deref(), &source, "png")?;
         let format = format_of(&path)?;
+        if args.debug_layer.is_some() && format != PictureFormat::Png {
+            let message = "--debug-layer shows one layer as a picture: write it as .png";
+            return Err(Fault::new(Exit::Usage, message));
+        }
         let output = Output::of(&path)?;
         let external = args.drawing.allow_external.as_deref();
         let look = Look::resolve(&args.look(), external)?.with_smoke(&args.drawing.volumes);
         let options = RendererOptions {
-            layers: format == PictureFormat::Exr,
+            layers: format == PictureFormat::Exr || args.debug_layer.is_some(),
             ..renderer_options(&args.drawing, &look)?
         };
         Ok(Self {

@@ -6,13 +6,14 @@ use crate::dump::dump_style;
 use crate::encoder;
 use crate::ending::has_ending;
 use crate::engine::{Drawn, EngineChoice};
-use crate::fault::Fault;
+use crate::fault::{Exit, Fault};
 use crate::idle;
 use crate::job::{Job, PictureFormat};
-use crate::layers;
+use crate::layers::{self, DebugLayer};
 use crate::lines;
 use crate::look::Look;
 use crate::message;
+use crate::output::print;
 use crate::progress::Progress;
 use crate::timings::{DRAW, Timings};
 use crate::viewpoint::{self, Seen};
@@ -30,10 +31,18 @@ pub fn render(args: &RenderArguments) -> Result<(), Fault> {
     if args.drawing.look.dump_style {
         return dump_style(&args.look(), &args.drawing);
     }
-    if args
-        .output
-        .as_deref()
-        .is_some_and(|path| has_ending(path, "svg"))
+    if args.debug_layer == Some(DebugLayer::List) {
+        return print(DebugLayer::list().as_bytes());
+    }
+    if args.scene.is_none() {
+        let message = "the scene is missing: --debug-layer shows a layer of one";
+        return Err(Fault::new(Exit::Usage, message));
+    }
+    if args.debug_layer.is_none()
+        && args
+            .output
+            .as_deref()
+            .is_some_and(|path| has_ending(path, "svg"))
     {
         return lines::lines_of_picture(args);
     }
@@ -72,6 +81,9 @@ fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Frame>, Fault> {
     });
 
     // Write a whole picture.
+    if let Some(layer) = job.args.debug_layer {
+        layer.show_in(&mut frame);
+    }
     if !is_written {
         let bytes = progress.step("encode", || match job.format {
             PictureFormat::Png => encoder::png(frame.size, &frame.rgba, job.look.is_transparent()),

@@ -1,6 +1,7 @@
 //! The arguments of `npr render`.
 
 use super::{CacheArguments, DrawingArguments};
+use crate::layers::DebugLayer;
 use clap::Args;
 use std::path::PathBuf;
 
@@ -8,13 +9,16 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 pub struct RenderArguments {
     /// Scene: .glb, .gltf, .vrm, .obj, .stl or .ply; or a volume of smoke: .vdb or .npy; - reads standard input.
-    #[arg(required_unless_present = "dump_style")]
+    #[arg(required_unless_present_any = ["dump_style", "debug_layer"])]
     pub scene: Option<PathBuf>,
     /// Picture to write: .png; .exr with layers for compositing: beauty, line, depth, normal, object and line id; or
     /// .svg where the style is lines only; - writes a .png to standard output [default: the scene's name with .png, in
     /// the current folder].
     #[arg(short, long, value_name = "OUT")]
     pub output: Option<PathBuf>,
+    /// Show a layer in place of the picture, to see what it is made of; list names them.
+    #[arg(long, value_name = "NAME")]
+    pub debug_layer: Option<DebugLayer>,
     /// The drawing.
     #[command(flatten)]
     pub drawing: DrawingArguments,

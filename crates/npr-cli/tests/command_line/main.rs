@@ -3,6 +3,7 @@
 mod broken_bitmaps;
 mod closing;
 mod colors;
+mod debug_layers;
 mod determinism;
 mod files;
 mod id_maps;
