@@ -18,9 +18,12 @@ struct Place {
     across: f32,
 }
 
+/// A share at every place of an image.
+type Shares = fn(Place) -> f32;
+
 /// The image of a tip.
 pub(super) fn image(tip: Tip) -> Option<BrushImage> {
-    let (nap, ink): (fn(Place) -> f32, fn(Place) -> f32) = match tip {
+    let (nap, ink): (Shares, Shares) = match tip {
         Tip::Pen => return None,
         Tip::GPen => (even, |place| edge(place, 1, 6 * LENGTH, 0.07)),
         Tip::Brush => (hairs, |place| edge(place, 2, 2 * LENGTH, 0.1)),
