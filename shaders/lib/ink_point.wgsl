@@ -1,4 +1,4 @@
-// Points of strokes, and the brushes that draw them. Twins: npr_vector::stroke_ink, npr_vector::brush.
+// Points of strokes, and the brushes that draw them. Twins: npr_vector::ink_point, npr_vector::brush.
 
 const INK_GOES_ON: u32 = 1u;
 const INK_JOINED: u32 = 2u;

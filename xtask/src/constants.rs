@@ -68,7 +68,7 @@ const TWINS: &[Twins] = &[
     twins("lib/inking.wgsl", "", "npr-style/src/inking.rs", ""),
     twins("lib/grain.wgsl", "", "npr-core/src/grain.rs", ""),
     twins("lib/brush.wgsl", "", "npr-vector/src/brush.rs", ""),
-    twins("lib/ink_point.wgsl", "INK_", "npr-vector/src/stroke_ink.rs", "InkPoint::"),
+    twins("lib/ink_point.wgsl", "INK_", "npr-vector/src/ink_point.rs", "InkPoint::"),
     twins("lib/inking.wgsl", "STEPS", "npr-style/src/hatch/drawing.rs", "STEPS"),
     twins("lib/inking.wgsl", "BLEND_LIFT", "npr-style/src/hatch/tone.rs", "BLEND_LIFT"),
     twins("lib/inking.wgsl", "RIDGE", "npr-style/src/hatch/tone.rs", "RIDGE"),

@@ -1,10 +1,10 @@
 //! What every other crate of the drawing machine stands on.
 //!
-//! Deterministic math ([`math`]), numbers that look random ([`random`]), the grain of paper ([`grain`]), colour encoding ([`color`]), cameras
-//! ([`camera`]), the structs that passes read and write on both engines ([`geometry`], [`window`]), the surface point
-//! under a pixel ([`surface`]), packed textures ([`texture`]), and a triangle rasteriser with a stated fill rule
-//! ([`raster`]); spheres of smoke ([`smoke`]); the kinds of line ([`line_kind`]), how they are found
-//! ([`line_source`]) and the flags of mesh edges ([`edge_flags`]); constants that styles and lines share
+//! Deterministic math ([`math`]), numbers that look random ([`random`]), the grain of paper ([`grain`]), colour
+//! encoding ([`color`]), cameras ([`camera`]), the structs that passes read and write on both engines ([`geometry`],
+//! [`window`]), the surface point under a pixel ([`surface`]), packed textures ([`texture`]), and a triangle rasteriser
+//! with a stated fill rule ([`raster`]); spheres of smoke ([`smoke`]); the kinds of line ([`line_kind`]), how they are
+//! found ([`line_source`]) and the flags of mesh edges ([`edge_flags`]); constants that styles and lines share
 //! ([`published_path`]); the door to decoders of others ([`decoding`]). Nothing here knows about files, styles or
 //! graphics devices.
 //!

@@ -3,8 +3,8 @@
 use crate::clip::clip_stroke;
 use crate::stamps::Stamps;
 use npr_core::random::{hash, unit};
+use npr_vector::ink_point::InkPoint;
 use npr_vector::stroke::{Drawing, Stroke, StrokePoint};
-use npr_vector::stroke_ink::InkPoint;
 use rayon::prelude::*;
 
 /// Greatest half width of ink, in pixels: wider lines cover any frame.

@@ -3,9 +3,9 @@
 use crate::color_runs::point_between;
 use crate::seed::Seed;
 use npr_core::math::{cos_f64, sin_f64};
+use npr_vector::ink_point::InkPoint;
 use npr_vector::mesh_lines::run::distance;
 use npr_vector::stroke::StrokePoint;
-use npr_vector::stroke_ink::InkPoint;
 
 /// Least distance between stamps, in pixels.
 const LEAST_SPACING_PX: f64 = 0.25;
@@ -39,10 +39,11 @@ pub struct Stamps {
 }
 
 impl Stamps {
-    /// The stamps of a part of a stroke, two points each; `inked` gives what a point of the stroke has beside its place.
+    /// The stamps of a part of a stroke, two points each; `inked` gives what a point of the stroke has beside its
+    /// place.
     ///
-    /// They lie at multiples of the spacing in `u`, so those of one stroke hold still while its start moves. Chance hangs
-    /// on the stroke's id and the number of the stamp.
+    /// They lie at multiples of the spacing in `u`, so those of one stroke hold still while its start moves. Chance
+    /// hangs on the stroke's id and the number of the stamp.
     pub(crate) fn along(
         &self,
         points: &[StrokePoint],

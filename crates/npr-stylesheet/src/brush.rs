@@ -25,7 +25,8 @@ style_table! {
 pub struct Stamp;
 /// What a rule changes about how stamps lie along strokes; what is absent stays.
 pub struct RuleStamp {
-    /// Distance between stamps, in widths of the style's line, 0.02..50; default 0.25. 0.1 an airbrush, 1.5 a row of beads.
+    /// Distance between stamps, in widths of the style's line, 0.02..50; default 0.25. 0.1 an airbrush, 1.5 a row of
+    /// beads.
     #[schemars(range(min = 0.02, max = 50.0))]
     #[rule = "Distance between stamps, in widths of the style's line, 0.02..50."]
     pub spacing: f32 = 0.25,

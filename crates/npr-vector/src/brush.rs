@@ -4,7 +4,7 @@
 //! brush is pressed on the paper with decides how deep the nap reaches: its high places touch first, on the hills of
 //! the paper. Twin of `lib/brush.wgsl`.
 
-use crate::stroke_ink::InkPoint;
+use crate::ink_point::InkPoint;
 use bytemuck::{Pod, Zeroable};
 use npr_core::gpu_layout;
 use npr_core::grain::paper_height;
@@ -71,8 +71,8 @@ impl Brushes<'_> {
         (brush.texels_across > 0).then_some(brush)
     }
 
-    /// Share of ink, 0 to 1, that a brush leaves in a pixel that a piece of a stroke covers; 0 where the piece before or
-    /// behind lies nearer.
+    /// Share of ink, 0 to 1, that a brush leaves in a pixel that a piece of a stroke covers; 0 where the piece before
+    /// or behind lies nearer.
     pub(crate) fn ink(&self, brush: &Brush, piece: &BrushedPiece, px: [f32; 2]) -> f32 {
         let [a, b] = &piece.ends;
         let foot = Foot::new(a.px, b.px, px);

@@ -22,6 +22,7 @@
 
 pub mod brush;
 pub mod image_lines;
+pub mod ink_point;
 pub mod mesh_lines;
 pub mod pixel_strokes;
 pub mod project;

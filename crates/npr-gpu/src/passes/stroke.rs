@@ -3,7 +3,8 @@
 use crate::pass::{Agreement, Features, Format, Pass, Work, read, uniform};
 use npr_core::window::Window;
 use npr_vector::brush::{Brush, Brushes};
-use npr_vector::stroke_ink::{InkPoint, draw};
+use npr_vector::ink_point::InkPoint;
+use npr_vector::stroke_ink::draw;
 
 /// Strokes as discs swept from each of their points to the next.
 pub const DRAW_STROKES: Pass = Pass {

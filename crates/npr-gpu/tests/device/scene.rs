@@ -20,7 +20,7 @@ use npr_style::smoke::{SmokeLook, pen};
 use npr_style::tone_row::{row_words, tone_row};
 use npr_stylesheet::{HueStop, hue_row};
 use npr_vector::brush::Brush;
-use npr_vector::stroke_ink::InkPoint;
+use npr_vector::ink_point::InkPoint;
 
 /// Width and height of the frame that windows are laid over.
 pub const FRAME_PX: [u32; 2] = [160, 90];

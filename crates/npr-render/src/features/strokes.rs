@@ -17,9 +17,9 @@ use npr_gpu::pass::Work;
 use npr_gpu::passes::stroke::DRAW_STROKES;
 use npr_stylesheet::Style;
 use npr_vector::brush::Brush;
+use npr_vector::ink_point::InkPoint;
 use npr_vector::rank::work::Arguments;
 use npr_vector::stroke::{Drawing, Stroke};
-use npr_vector::stroke_ink::InkPoint;
 
 /// Points that there is room for at first; frames with more of them make more room.
 const FIRST_ROOM: usize = 4096;
