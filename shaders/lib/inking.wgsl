@@ -1,8 +1,8 @@
 // Ink and hatching at one point. Twin: npr_style::inking. The shader declares what its twin's layers hold.
 
-//# use lib/grain
 //# use lib/ink_tone
 //# use lib/paint
+//# use lib/paper
 //# use lib/four
 //# use lib/second_layer
 
@@ -14,9 +14,6 @@ const BLEND_LIFT: f32 = 3.4;
 const RIDGE: f32 = 0.16;
 // Change of luminance between two strokes from which the strokes give way to the tone's own edge.
 const ABRUPT: f32 = 0.25;
-
-// Pressure, as a share of the full one, over which the ink of a hatch grows from none to all.
-const SOFT: f32 = 0.4;
 
 // Chart distortion, 0..1, from which dots are placed on the screen instead.
 const LOOSE: f32 = 0.3;
@@ -90,13 +87,6 @@ fn ink_at(id: u32, part: u32, corners: Corners, px: vec2<f32>, dark: u32) -> f32
         place = place_on_screen(part, px);
     }
     return on_paper(part, ink_of_hatch(part, place, l[0], darkens, calm), px);
-}
-
-// What the grain of the paper leaves of the ink of a hatch at a place of the picture, in pixels.
-fn on_paper(part: u32, ink: f32, px: vec2<f32>) -> f32 {
-    if ink <= 0.0 || parts[part].hatch_grain <= 0.0 { return ink; }
-    let valley = 1.0 - paper_height(px, parts[part].spots_per_px);
-    return ink * clamp((1.0 - parts[part].hatch_grain * valley) / SOFT + 0.5, 0.0, 1.0);
 }
 
 // Coordinates of a pixel and its neighbours in the hatch of a part that is laid on the picture.

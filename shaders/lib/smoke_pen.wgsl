@@ -1,6 +1,8 @@
 // The last step of smoke: its tones, and its ink and hatching. Twin: npr_style::smoke::pen.
 // The shader declares `compose`, `parts`, `texels`, `window` and the pictures `smoke_*`.
 
+//# use lib/paper
+
 // Points in a pixel's range of tones over which the ramp is averaged.
 const TONE_TAPS: u32 = 4u;
 // Share of a pixel up to which its line may cover it so that the tone beside it is still known.

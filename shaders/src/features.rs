@@ -69,6 +69,8 @@ features! {
     COLORS = 23;
     /// Strokes are drawn with brushes that leave ink out.
     BRUSHES = 24;
+    /// Hatching shows the grain of the paper.
+    GRAIN = 25;
 }
 
 impl Features {

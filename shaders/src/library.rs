@@ -90,6 +90,7 @@ const LIBRARIES: &[Library] = &[
     always!("outline"),
     serving!(Features::OVERLAY, "overlay_layer"),
     serving!(Features::PAINT, "paint"),
+    serving!(Features::GRAIN, "paper"),
     always!("pixel"),
     always!("pose"),
     always!("random"),

@@ -69,6 +69,7 @@ const TWINS: &[Twins] = &[
     twins("lib/grain.wgsl", "", "npr-core/src/grain.rs", ""),
     twins("lib/brush.wgsl", "", "npr-vector/src/brush.rs", ""),
     twins("lib/ink_point.wgsl", "INK_", "npr-vector/src/ink_point.rs", "InkPoint::"),
+    twins("lib/paper.wgsl", "", "npr-style/src/inking.rs", ""),
     twins("lib/inking.wgsl", "STEPS", "npr-style/src/hatch/drawing.rs", "STEPS"),
     twins("lib/inking.wgsl", "BLEND_LIFT", "npr-style/src/hatch/tone.rs", "BLEND_LIFT"),
     twins("lib/inking.wgsl", "RIDGE", "npr-style/src/hatch/tone.rs", "RIDGE"),

@@ -240,6 +240,7 @@ impl Needs {
             Features::TINTS.when(self.features.paints),
             Features::SMOKE.when(has_smoke),
             Features::SMOKE_PEN.when(layers(Compose::SMOKE_PEN)),
+            Features::GRAIN.when(parts.iter().any(|part| part.hatch_grain > 0.0)),
             Features::BRUSHES.when(!styled.brushes.all.is_empty()),
             Features::SMOKE_SHADOWS.when(has_smoke && casts && *are_same),
         ];

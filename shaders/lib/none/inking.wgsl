@@ -4,10 +4,6 @@ fn mean_ink(id: u32, corners: Corners, known: f32, px: vec2<f32>, counted: u32, 
     return 0.0;
 }
 
-fn on_paper(part: u32, ink: f32, px: vec2<f32>) -> f32 {
-    return ink;
-}
-
 fn ink_on_sheet(part: u32, at: vec2<f32>, scale: f32, tone: f32, change: vec2<f32>) -> f32 {
     return 0.0;
 }
