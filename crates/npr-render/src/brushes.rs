@@ -2,7 +2,7 @@
 
 use crate::error::RenderError;
 use crate::hatching::FrameScale;
-use crate::model::Model;
+use crate::part_info::PartInfo;
 use crate::pictures::Pictures;
 use npr_core::texture::TextureStore;
 use npr_drawing::ink::{BrushLay, Images};
@@ -17,7 +17,7 @@ use npr_vector::stroke::Stroke;
 pub(crate) struct Brushes {
     /// The brushes, a pen first; empty where all draw with a pen.
     pub all: Vec<Brush>,
-    /// How that of every part lies on strokes, where a pixel is as long as the base width.
+    /// How that of every part of a line model lies on strokes, where a pixel is as long as the base width.
     of_parts: Vec<BrushLay>,
 }
 
@@ -29,16 +29,17 @@ struct StoredImage {
 }
 
 impl Brushes {
-    /// Gives every part that draws strokes its brush, and puts the images into the texture store, each once.
+    /// Gives each of the `parts` that strokes are found on its brush, and puts the images into the texture store, each
+    /// once.
     pub fn new(
-        model: &Model,
+        parts: &[PartInfo],
         style: &Style,
         pictures: &Pictures<'_>,
         frame: &FrameScale,
         textures: &mut TextureStore,
     ) -> Result<Self, RenderError> {
         // Find the brushes that are no pens.
-        let looks = model.parts.iter().map(|info| info.look(style));
+        let looks = parts.iter().map(|info| info.look(style));
         let drawn: Vec<Option<LineBrush>> = looks
             .map(|look| {
                 let draws = look.line_on && look.line_method.source().is_some();

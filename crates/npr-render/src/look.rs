@@ -47,10 +47,12 @@ pub(crate) struct StyledModel {
 }
 
 impl StyledModel {
+    /// Strokes are found on `stroked`, the parts of a line model of the scene; on none without one.
     pub fn new(
         model: &Model,
         style: &Style,
         options: &RendererOptions,
+        stroked: &[PartInfo],
     ) -> Result<Self, RenderError> {
         // Store the background picture behind the model's textures.
         let pictures = Pictures::new(style, &options.pictures)?;
@@ -97,7 +99,7 @@ impl StyledModel {
             &mut textures,
         )?;
         inked.notices.extend(style.line_paint_notices());
-        let brushes = Brushes::new(model, style, &pictures, &frame, &mut textures)?;
+        let brushes = Brushes::new(stroked, style, &pictures, &frame, &mut textures)?;
         if parts.is_empty() {
             parts.push(Part::default());
         }

@@ -14,6 +14,7 @@ use crate::lines::LineRenderer;
 use crate::look::StyledModel;
 use crate::model::Model;
 use crate::options::{RendererOptions, check_size};
+use crate::part_info::PartInfo;
 use crate::smoke::Smoke;
 use crate::surfaces::Surfaces;
 use crate::tiles::Tiles;
@@ -72,21 +73,22 @@ struct RendererPlan<'a> {
 }
 
 impl<'a> RendererPlan<'a> {
-    /// Plans a frame and all that goes over it, and checks that the whole fits into memory.
+    /// Plans a frame and all that goes over it, and checks that the whole fits into memory; `stroked` are the parts of
+    /// the line model, where there is one.
     fn new(
         model: &'a Model,
         style: &Style,
         options: &RendererOptions,
-        has_lines: bool,
+        stroked: Option<&[PartInfo]>,
     ) -> Result<Self, RenderError> {
         // Resolve the style and its words.
         check_size(options.size)?;
-        let (style, notice) = match has_lines {
+        let (style, notice) = match stroked.is_some() {
             true => (Cow::Borrowed(style), None),
             false => without_lines(style),
         };
         let style = &*style;
-        let mut styled = StyledModel::new(model, style, options)?;
+        let mut styled = StyledModel::new(model, style, options, stroked.unwrap_or_default())?;
         styled.inked.notices.extend(notice);
         let lettering = Lettering::new(style, &options.fonts)?;
         let notices = &mut styled.inked.notices;
@@ -121,7 +123,7 @@ impl<'a> RendererPlan<'a> {
                 layers: false,
                 ..options.clone()
             };
-            let other = Self::new(model, &style.blended_with()?, &left, has_lines)?;
+            let other = Self::new(model, &style.blended_with()?, &left, stroked)?;
             planned_bytes += other.planned_bytes;
             blended = Some((Box::new(other), blending));
         }
@@ -179,7 +181,7 @@ impl<'a> Renderer<'a> {
         style: &Style,
         options: &RendererOptions,
     ) -> Result<Self, RenderError> {
-        RendererPlan::new(model, style, options, false)?.prepare(engine, None)
+        RendererPlan::new(model, style, options, None)?.prepare(engine, None)
     }
 
     /// The same, with strokes from a line model of the scene, found on an engine that may be another one.
@@ -207,7 +209,8 @@ impl<'a> Renderer<'a> {
         style: &Style,
         options: &RendererOptions,
     ) -> Result<Self, RenderError> {
-        RendererPlan::new(model, style, options, true)?.prepare(engine, Some(lines))
+        let plan = RendererPlan::new(model, style, options, Some(lines.model.parts()))?;
+        plan.prepare(engine, Some(lines))
     }
 
     /// The same renderer, which calls `tell` after each tile with how many are done, of how many; never for a single

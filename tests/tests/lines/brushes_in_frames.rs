@@ -2,6 +2,7 @@
 
 use npr_gpu::engine::Engine;
 use npr_gpu::processor::Processor;
+use npr_mesh::Mesh;
 use npr_mesh::testing::icosphere;
 use npr_render::{Frame, Picture, RenderError, RendererOptions, Subject};
 use npr_scene::Scene;
@@ -27,13 +28,32 @@ fn thick(settings: &[&str]) -> Style {
     style
 }
 
+/// Two meshes as one.
+fn joined(one: &Mesh, other: &Mesh) -> Mesh {
+    let positions = [one.positions(), other.positions()].concat();
+    let first = one.positions().len() as u32;
+    let moved = other.triangles().iter();
+    let moved = moved.map(|corners| corners.map(|corner| corner + first));
+    let triangles = one.triangles().iter().copied().chain(moved).collect();
+    Mesh::new(positions, triangles).unwrap()
+}
+
+fn drawn_of(
+    scene: &Scene,
+    engine: &dyn Engine,
+    style: &Style,
+    options: &RendererOptions,
+) -> Result<Frame, RenderError> {
+    let subject = Subject::new(scene, style)?;
+    subject.renderer(engine, style, options)?.draw(&front())
+}
+
 fn drawn_by(
     engine: &dyn Engine,
     style: &Style,
     options: &RendererOptions,
 ) -> Result<Frame, RenderError> {
-    let subject = Subject::new(&scene(), style)?;
-    subject.renderer(engine, style, options)?.draw(&front())
+    drawn_of(&scene(), engine, style, options)
 }
 
 fn drawn(settings: &[&str]) -> Frame {
@@ -195,19 +215,35 @@ fn a_rule_gives_a_part_its_brush() {
     let mixed = ink(&drawn_by(&Processor, &style, &options).unwrap());
     let [pen, chalk] = ["pen", "chalk"].map(|tip| ink(&drawn(&[&format!("line.brush.tip={tip}")])));
     // The left ball ends at 150, and the outline of the right one begins behind it.
-    let differs = |other: &[f64], columns: std::ops::Range<usize>| {
+    let differ = |mixed: &[f64], other: &[f64], columns: std::ops::Range<usize>| {
         let slots = (0..mixed.len()).filter(|slot| columns.contains(&(slot % SIZE[0] as usize)));
         slots
             .filter(|slot| (mixed[*slot] - other[*slot]).abs() > 0.01)
             .count()
     };
-    assert_eq!(differs(&pen, 0..135), 0, "the left ball keeps its pen");
+    let (left, right) = (0..135, 165..SIZE[0] as usize);
+    let differs = |other: &[f64], columns| differ(&mixed, other, columns);
     assert_eq!(
-        differs(&chalk, 165..SIZE[0] as usize),
+        differs(&pen, left.clone()),
+        0,
+        "the left ball keeps its pen"
+    );
+    assert_eq!(
+        differs(&chalk, right.clone()),
         0,
         "the right ball has chalk"
     );
-    assert!(differs(&chalk, 0..135) > 200 && differs(&pen, 165..SIZE[0] as usize) > 200);
+    assert!(differs(&chalk, left.clone()) > 200 && differs(&pen, right.clone()) > 200);
+
+    // An object in two pieces, of which one lies within the other, has one brush, and no other object takes it.
+    let hidden = placed(&icosphere(2), [0.1; 3], [-0.7, 0.0, 0.0]);
+    let ball = placed(&icosphere(4), [0.6; 3], [-0.7, 0.0, 0.0]);
+    let other = placed(&icosphere(4), [0.6; 3], [0.4, 0.0, -1.0]);
+    let both = Object::new("Left", joined(&ball, &hidden));
+    let pieces = scene_of(&[both, Object::new("Right", other)]);
+    let of_pieces = ink(&drawn_of(&pieces, &Processor, &style, &options).unwrap());
+    assert_eq!(differ(&of_pieces, &pen, left), 0);
+    assert!(differ(&of_pieces, &pen, right) > 200);
 }
 
 /// Dry brushes leave more out where they are drier, coarse paper has larger spots, and an image once over a stroke is

@@ -228,7 +228,7 @@ fn plan(
         background: Background::Transparent,
         ..style.into_owned()
     };
-    let mut styled = StyledModel::new(model, &style, options)?;
+    let mut styled = StyledModel::new(model, &style, options, &[])?;
     styled.inked.notices.extend(notice);
     let (plan, picture) = FramePlan::with_depths(model, &style, options, styled);
     if plan.tiles().kept != options.size {
