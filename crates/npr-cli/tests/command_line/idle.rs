@@ -21,6 +21,11 @@ const SMALL: [&str; 4] = ["--size", "96x64", "--backend", "cpu"];
 
 const DRAWINGS: &[Case] = &[
     (
+        &["render", "scene.obj", "-o", "a.png"],
+        &["--debug-layer", "stroke"],
+        Acts,
+    ),
+    (
         &["lines", "scene.obj", "-o", "a.svg"],
         &["--crease", "100"],
         Acts,
