@@ -166,26 +166,23 @@ pub fn ink_points(
             if let Some(stamps) = stamps {
                 return stamps.along(&points, is_closed, id, &inked);
             }
-            let drawn = InkPoint::GOES_ON | InkPoint::JOINED;
-            let joined = InkPoint::JOINED;
-            let count = points.len();
-            let is_ring = is_closed && has_image && count > 1;
-            let mut steps: Vec<(usize, f64, u32)> = Vec::with_capacity(count + 3);
-            if is_ring {
-                steps.push((count - 1, -1.0, joined));
-            }
-            steps.extend((0..count).map(|i| (i, 0.0, drawn)));
-            match (is_closed, is_ring) {
-                (true, true) => steps.extend([(0, 1.0, joined), (1, 1.0, 0)]),
-                (true, false) => steps.push((0, 1.0, 0)),
-                (false, _) => steps[count - 1].2 = 0,
-            }
-            let laid_at = |(i, rounds, flags): (usize, f64, u32)| InkPoint {
+            let laid_at = |i: usize, rounds: f64, flags: u32| InkPoint {
                 flags: laid.flags | flags,
                 u: laid.u(&points[i], rounds),
                 ..inked(&points[i])
             };
-            steps.into_iter().map(laid_at).collect::<Vec<_>>()
+            let (joined, count) = (InkPoint::JOINED, points.len());
+            let is_ring = is_closed && has_image && count > 1;
+            let mut all = Vec::with_capacity(count + 3);
+            all.extend(is_ring.then(|| laid_at(count - 1, -1.0, joined)));
+            all.extend((0..count).map(|i| laid_at(i, 0.0, InkPoint::GOES_ON | joined)));
+            match (is_closed, all.last_mut()) {
+                (false, Some(end)) => end.flags = laid.flags,
+                (false, None) => {}
+                (true, _) if is_ring => all.extend([laid_at(0, 1.0, joined), laid_at(1, 1.0, 0)]),
+                (true, _) => all.push(laid_at(0, 1.0, 0)),
+            }
+            all
         })
     };
     strokes.flat_map_iter(of_stroke).collect()

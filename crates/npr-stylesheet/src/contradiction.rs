@@ -5,7 +5,7 @@ use crate::id_map::color_of;
 use crate::motion::TRAILS_MAX;
 use crate::nearest::nearest;
 use crate::overlay::Over;
-use crate::ramp::{Stop, first_unsorted};
+use crate::ramp::{Stop, check_order};
 use crate::{OutlineMethod, Rule, Style, Width, WidthSource};
 
 impl Style {
@@ -103,13 +103,7 @@ impl Style {
 }
 
 fn check_ramp(stops: &[Stop], key: &str) -> Result<(), StyleError> {
-    match first_unsorted(stops) {
-        Some(i) => Err(StyleError::unfit(
-            format!("{key}.{i}.at"),
-            "lies before the stop ahead of it",
-        )),
-        None => Ok(()),
-    }
+    check_order(key, stops.iter().map(|stop| stop.at))
 }
 
 /// Refuses a direction of strokes with length 0.
@@ -159,10 +153,7 @@ fn check_width(width: &Width) -> Result<(), StyleError> {
         (&width.depth.curve, "line.width.depth.curve"),
     ];
     for (stops, key) in curves {
-        if let Some(i) = stops.windows(2).position(|pair| pair[1].at < pair[0].at) {
-            let key = format!("{key}.{}.at", i + 1);
-            return Err(StyleError::unfit(key, "lies before the stop ahead of it"));
-        }
+        check_order(key, stops.iter().map(|stop| stop.at))?;
     }
     if width.depth.far <= width.depth.near {
         let reason = "has to lie beyond line.width.depth.near";

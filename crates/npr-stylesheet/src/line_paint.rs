@@ -11,6 +11,7 @@ use npr_style::line_color::HUES;
 
 use crate::error::StyleError;
 use crate::overlay::style_table;
+use crate::ramp::check_order;
 use crate::{Color, KindColors};
 
 /// Most stops of a ramp that is laid over lines.
@@ -210,13 +211,8 @@ impl LinePaint {
     pub(crate) fn check(&self, key: &str) -> Result<(), StyleError> {
         // Refuse stops out of order.
         for (name, ramp) in [("depth", &self.depth.ramp), ("light", &self.light.ramp)] {
-            let unsorted = ramp.windows(2).position(|pair| pair[1].at < pair[0].at);
-            if let Some(i) = unsorted {
-                return Err(StyleError::unfit(
-                    format!("{key}.{name}.ramp.{}.at", i + 1),
-                    "lies before the stop ahead of it",
-                ));
-            }
+            let key = format!("{key}.{name}.ramp");
+            check_order(&key, ramp.iter().map(|stop| stop.at))?;
         }
 
         // Refuse a ramp over depth that ends before it begins.

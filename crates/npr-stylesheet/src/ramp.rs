@@ -4,7 +4,7 @@ use npr_style::ramp::Level;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::Color;
+use crate::{Color, StyleError};
 
 /// One tone of a ramp: from its place on, surfaces are lit this much.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -44,12 +44,19 @@ impl Stop {
     }
 }
 
-/// Index of the first stop that begins before the one ahead of it.
-pub(crate) fn first_unsorted(stops: &[Stop]) -> Option<usize> {
-    stops
-        .windows(2)
-        .position(|pair| pair[1].at < pair[0].at)
-        .map(|i| i + 1)
+/// Refuses places of the stops of `key` of which one lies before the one ahead of it.
+pub(crate) fn check_order(
+    key: &str,
+    places: impl Iterator<Item = f32> + Clone,
+) -> Result<(), StyleError> {
+    let mut pairs = places.clone().zip(places.skip(1));
+    match pairs.position(|(ahead, at)| at < ahead) {
+        Some(i) => Err(StyleError::unfit(
+            format!("{key}.{}.at", i + 1),
+            "lies before the stop ahead of it",
+        )),
+        None => Ok(()),
+    }
 }
 
 #[cfg(test)]

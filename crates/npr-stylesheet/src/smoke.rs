@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::Hatch;
 use crate::ink::{Ink, Mapping, Tone};
+use crate::ramp::check_order;
 use crate::{Color, Length, StyleError};
 use npr_style::ramp::Level;
 use npr_style::smoke::LAYERS_MAX;
@@ -324,14 +325,7 @@ impl SmokeStyle {
 
     /// Refuses tones out of order and a light that points nowhere.
     pub(crate) fn sanity_check(&self) -> Result<(), StyleError> {
-        let unsorted = self
-            .ramp
-            .windows(2)
-            .position(|pair| pair[1].at < pair[0].at);
-        if let Some(i) = unsorted {
-            let key = format!("smoke.ramp.{}.at", i + 1);
-            return Err(StyleError::unfit(key, "lies before the stop ahead of it"));
-        }
+        check_order("smoke.ramp", self.ramp.iter().map(|stop| stop.at))?;
         match self.light {
             Some([0.0, 0.0, 0.0]) => Err(StyleError::unfit("smoke.light", "points nowhere")),
             _ => Ok(()),

@@ -3,6 +3,7 @@
 use super::image::{BrushImage, Texel};
 use npr_core::math::{mix, smoothstep};
 use npr_core::random::{hash, unit};
+use rayon::prelude::*;
 
 /// What strokes are drawn with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -121,6 +122,7 @@ fn image(tip: Tip) -> Option<BrushImage> {
         across: (y as f32 + 0.5) / SIZE[1] as f32 * 2.0 - 1.0,
     };
     let heights: Vec<f32> = (0..SIZE[0] * SIZE[1])
+        .into_par_iter()
         .map(|i| nap(place(i % SIZE[0], i / SIZE[0])))
         .collect();
     let ranks = ranks(&heights);
@@ -136,7 +138,7 @@ fn image(tip: Tip) -> Option<BrushImage> {
 /// The rank of every number among all, 0..255; equal ones share the highest.
 fn ranks(numbers: &[f32]) -> Vec<u8> {
     let mut sorted = numbers.to_vec();
-    sorted.sort_by(f32::total_cmp);
+    sorted.par_sort_by(f32::total_cmp);
     let rank = |number: &f32| {
         let below = sorted.partition_point(|other| other <= number);
         (below * 255 / sorted.len()) as u8
