@@ -134,8 +134,13 @@ pub fn strokes_with(
     // Put smooth contours in their place where the settings ask for them.
     let smooth_contours = view.smooth_contours(edge_contours, &contour_lines);
     let contour_runs = match &smooth_contours {
-        Some((graph, lines)) => runs(shape, projector, graph, lines),
-        None => runs(shape, projector, edge_contours, &contour_lines),
+        Some((graph, lines)) => runs(shape, projector, graph, (lines, settings.hidden)),
+        None => runs(
+            shape,
+            projector,
+            edge_contours,
+            (&contour_lines, settings.hidden),
+        ),
     };
 
     // Suppress the mesh edges that smooth contours show already.
@@ -159,7 +164,7 @@ pub fn strokes_with(
     let mut found = contour_runs;
     for graph in others {
         let lines = view.lines(graph, &seen, wanted, &mut toll)?;
-        found.extend(runs(shape, projector, graph, &lines));
+        found.extend(runs(shape, projector, graph, (&lines, settings.hidden)));
     }
 
     // Make strokes, with the outline of smoke after them.
@@ -180,12 +185,11 @@ pub fn strokes_with(
 
 /// The runs of a view as strokes, calmed and painted.
 fn strokes_of_runs(
-    mut found: Vec<Run>,
+    found: Vec<Run>,
     shape: &HalfEdgeMesh,
     settings: &LineSettings,
     look: &StrokeLook<'_>,
 ) -> Vec<Stroke> {
-    found.retain(|run| settings.hidden || run.occluders == 0);
     let mut found = calmed(found, settings);
     if look.paint_at.is_some() {
         found = broken_up(found);

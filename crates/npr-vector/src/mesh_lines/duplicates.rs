@@ -3,10 +3,9 @@
 //! Where a mesh is noisy its contour doubles back, and a cusp grows a fringe of hairs beside the line it ends. Runs
 //! are taken from the longest to the shortest; what lies beside a run already taken, and along it, is cut away.
 
-use crate::mesh_lines::near::{cell_of, cells_within};
+use crate::mesh_lines::near::{Cells, cells_within};
 use crate::mesh_lines::run::{Run, RunPoint, distance};
-use foldhash::fast::FixedState;
-use std::collections::{BTreeSet, HashMap};
+use std::collections::BTreeSet;
 
 /// Within this distance of a longer run a sample is a double, in pixels.
 const BESIDE_PX: f64 = 2.25;
@@ -41,7 +40,7 @@ const HAIR_PX: f64 = 12.0;
 /// together: a short bare part between the ends of two lines stays, however little it is. O(samples) for lines that
 /// do not crowd in one place.
 pub fn suppress(runs: Vec<Run>) -> Vec<Run> {
-    let mut taken = Taken::default();
+    let mut taken = Taken::new();
     let mut kept: Vec<Vec<Run>> = vec![Vec::new(); runs.len()];
     for (index, length) in longest_first(&runs) {
         let run = &runs[index];
@@ -60,7 +59,7 @@ pub fn suppress(runs: Vec<Run>) -> Vec<Run> {
 /// others, those that hold two ends together, parts cut at corners, and the longest run of every object always stay.
 /// Runs must be sampled about evenly. O(samples) for lines that do not crowd in one place.
 pub fn leave_out_short_fragments(mut runs: Vec<Run>) -> Vec<Run> {
-    let mut taken = Taken::default();
+    let mut taken = Taken::new();
     let mut objects = BTreeSet::new();
     let mut stays = vec![true; runs.len()];
     for (index, length) in longest_first(&runs) {
@@ -108,12 +107,17 @@ struct Sample {
 type Tip = (usize, bool);
 
 /// The samples of all runs taken so far, in cells.
-#[derive(Default)]
 struct Taken {
-    cells: HashMap<[i64; 2], Vec<Sample>, FixedState>,
+    cells: Cells<Sample>,
 }
 
 impl Taken {
+    fn new() -> Self {
+        Self {
+            cells: Cells::new(PEN_PX),
+        }
+    }
+
     /// Which samples of a run lie along something taken, by majority; takes the samples that are drawn and lie beside
     /// nothing.
     ///
@@ -144,15 +148,13 @@ impl Taken {
     }
 
     fn add(&mut self, sample: Sample) {
-        let cell = self.cells.entry(cell_of(sample.place, PEN_PX)).or_default();
-        cell.push(sample);
+        self.cells.add(sample.place, sample);
     }
 
     /// Takes all samples of a run.
     fn take(&mut self, run: &Run, index: usize) {
-        samples(run, index)
-            .into_iter()
-            .for_each(|sample| self.add(sample));
+        let samples = samples(run, index);
+        samples.into_iter().for_each(|sample| self.add(sample));
     }
 
     /// Whether the pen that drew what is taken has touched a place of a run.
@@ -202,7 +204,7 @@ impl Taken {
         reach: f64,
         is: impl Fn(&Sample) -> bool,
     ) -> Option<&Sample> {
-        let around = cells_within(place, reach, PEN_PX).filter_map(|cell| self.cells.get(&cell));
+        let around = self.cells.of(cells_within(place, reach, PEN_PX));
         // Most samples of the cells are too far, which needs no root.
         let most = reach * reach * (1.0 + 1e-9);
         let is_near = |other: &&Sample| {
@@ -210,7 +212,6 @@ impl Taken {
             dx * dx + dy * dy <= most
         };
         around
-            .flatten()
             .filter(is_near)
             .map(|other| (distance(other.place, place), other))
             .filter(|(apart, other)| *apart < reach && is(other))

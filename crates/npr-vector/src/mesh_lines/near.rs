@@ -1,5 +1,53 @@
 //! Square cells over the plane, for finding near places.
 
+use foldhash::fast::FixedState;
+use npr_core::geometry::NONE;
+use std::collections::HashMap;
+
+/// Things by the square cell that they lie in.
+#[derive(Debug)]
+pub(crate) struct Cells<T> {
+    side: f64,
+    /// The first and the last thing of every cell that holds any.
+    ends: HashMap<[i64; 2], [u32; 2], FixedState>,
+    /// All things, each with the next one of its cell.
+    things: Vec<(T, u32)>,
+}
+
+impl<T> Cells<T> {
+    /// Empty cells of a width.
+    pub fn new(side: f64) -> Self {
+        Self {
+            side,
+            ends: HashMap::default(),
+            things: Vec::new(),
+        }
+    }
+
+    /// Adds a thing at a place, behind those of its cell.
+    pub fn add(&mut self, place: [f64; 2], thing: T) {
+        let index = self.things.len() as u32;
+        self.things.push((thing, NONE));
+        let ends = self
+            .ends
+            .entry(cell_of(place, self.side))
+            .or_insert([index; 2]);
+        if ends[1] != index {
+            self.things[ends[1] as usize].1 = index;
+            ends[1] = index;
+        }
+    }
+
+    /// The things of some cells, cell by cell, those of one in the order in which they came.
+    pub fn of(&self, cells: impl Iterator<Item = [i64; 2]>) -> impl Iterator<Item = &T> {
+        let firsts = cells.filter_map(|cell| self.ends.get(&cell).map(|ends| ends[0]));
+        firsts.flat_map(|first| {
+            let at = |index: u32| self.things.get(index as usize);
+            std::iter::successors(at(first), move |(_, next)| at(*next)).map(|(thing, _)| thing)
+        })
+    }
+}
+
 /// The square cell that a place lies in, of cells `side` wide over the whole plane.
 pub(crate) fn cell_of(place: [f64; 2], side: f64) -> [i64; 2] {
     place.map(|v| (v / side).floor() as i64)

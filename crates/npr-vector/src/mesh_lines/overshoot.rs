@@ -5,9 +5,8 @@
 //! leaves it out.
 
 use crate::mesh_lines::merge::{DOT_PX, TOUCHING_PX};
-use crate::mesh_lines::near::{cell_of, cells_around};
+use crate::mesh_lines::near::{Cells, cell_of, cells_around};
 use crate::mesh_lines::run::{Run, distance};
-use std::collections::BTreeMap;
 
 /// Least length of a run that must be left, in pixels: a shorter one is no line with a spur, but a short line.
 const LEAST_LEFT_PX: f64 = 4.0 * DOT_PX;
@@ -39,23 +38,21 @@ struct Sample {
 
 /// Points of all runs, in cells.
 struct Near {
-    cells: BTreeMap<[i64; 2], Vec<Sample>>,
+    cells: Cells<Sample>,
 }
 
 impl Near {
     fn new(runs: &[Run]) -> Self {
-        let mut cells: BTreeMap<[i64; 2], Vec<Sample>> = BTreeMap::new();
+        let mut cells = Cells::new(TOUCHING_PX);
         for (index, run) in runs.iter().enumerate() {
             let last = run.points.len() - 1;
             for (i, point) in run.points.iter().enumerate() {
-                cells
-                    .entry(cell_of(point.place, TOUCHING_PX))
-                    .or_default()
-                    .push(Sample {
-                        place: point.place,
-                        run: index,
-                        is_end: !run.closed && (i == 0 || i == last),
-                    });
+                let sample = Sample {
+                    place: point.place,
+                    run: index,
+                    is_end: !run.closed && (i == 0 || i == last),
+                };
+                cells.add(point.place, sample);
             }
         }
         Self { cells }
@@ -94,10 +91,8 @@ impl Near {
 
     /// The points of other runs that touch a place.
     fn others(&self, place: [f64; 2], run: usize) -> impl Iterator<Item = &Sample> {
-        cells_around(cell_of(place, TOUCHING_PX))
-            .filter_map(|cell| self.cells.get(&cell))
-            .flatten()
-            .filter(move |other| other.run != run && distance(other.place, place) <= TOUCHING_PX)
+        let around = self.cells.of(cells_around(cell_of(place, TOUCHING_PX)));
+        around.filter(move |other| other.run != run && distance(other.place, place) <= TOUCHING_PX)
     }
 }
 

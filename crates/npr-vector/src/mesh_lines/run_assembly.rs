@@ -10,6 +10,7 @@ use crate::rank::hash_key;
 use crate::surface_location::SurfaceLocation;
 use npr_core::geometry::NONE;
 use npr_mesh::half_edge::HalfEdgeMesh;
+use rayon::prelude::*;
 
 /// Gaps in a line up to this length are closed, in pixels: nobody sees them, and each would cost a stroke.
 const GAP_PX: f64 = 0.75;
@@ -41,46 +42,25 @@ impl Item<'_> {
     }
 }
 
-/// The runs of all chains of a graph; `lines` holds the line after each node.
+/// The runs of all chains of a graph, the hidden ones only where wanted; `lines` holds the line after each node.
+///
+/// Whether hidden ones are wanted changes nothing of the others. O(spans), in parallel.
 pub fn runs(
     shape: &HalfEdgeMesh,
     projector: &Projector,
     graph: &CurveGraph,
-    lines: &[Option<Line>],
+    (lines, hidden): (&[Option<Line>], bool),
 ) -> Vec<Run> {
-    let mut found = Vec::new();
-    for mut chain in graph.chains() {
-        // Start loops where the mesh says, not where the list does.
-        if graph.is_loop(&chain) {
-            start_at_anchor(graph, &mut chain);
-        }
-        let (mut items, is_loop) = items(graph, lines, &chain);
-        close_gaps(&mut items);
-        let breaks: Vec<usize> = breaks(&items, is_loop);
-        let maker = Maker {
-            shape,
-            projector,
-            graph,
-        };
-
-        // A loop that nothing interrupts becomes a closed run.
-        if breaks.is_empty() && !items.is_empty() {
-            let mut run = maker.run(&items, true);
-            start_at_head(&mut run);
-            found.push(run);
-            continue;
-        }
-
-        // Else every part between two breaks becomes an open one.
-        for (i, from) in breaks.iter().enumerate() {
-            let to = breaks
-                .get(i + 1)
-                .copied()
-                .unwrap_or(breaks[0] + items.len());
-            let part: Vec<Item<'_>> = (*from..to).map(|k| items[k % items.len()]).collect();
-            found.push(maker.run(&part, false));
-        }
-    }
+    let maker = Maker {
+        shape,
+        projector,
+        graph,
+        lines,
+        hidden,
+    };
+    let chains = graph.chains().into_par_iter().with_min_len(8);
+    let found: Vec<Vec<Run>> = chains.map(|chain| maker.runs(chain)).collect();
+    let mut found = found.concat();
 
     // Tell apart runs on one edge, and leave out what has too few points.
     number(&mut found);
@@ -175,14 +155,55 @@ fn breaks(items: &[Item<'_>], is_loop: bool) -> Vec<usize> {
         .collect()
 }
 
-/// Makes runs from items.
+/// Makes runs of the chains of a graph.
 struct Maker<'a> {
     shape: &'a HalfEdgeMesh,
     projector: &'a Projector,
     graph: &'a CurveGraph,
+    /// The line after each node.
+    lines: &'a [Option<Line>],
+    /// Whether hidden runs are made.
+    hidden: bool,
 }
 
 impl Maker<'_> {
+    /// The runs of a chain, in their order along it.
+    fn runs(&self, mut chain: Vec<u32>) -> Vec<Run> {
+        // Start loops where the mesh says, not where the list does.
+        if self.graph.is_loop(&chain) {
+            start_at_anchor(self.graph, &mut chain);
+        }
+        let (mut items, is_loop) = items(self.graph, self.lines, &chain);
+        close_gaps(&mut items);
+        let breaks = breaks(&items, is_loop);
+        let is_made = |item: &Item<'_>| self.hidden || !item.is_hidden();
+
+        // A loop that nothing interrupts becomes a closed run.
+        let Some(first_break) = breaks.first() else {
+            let whole = items.first().filter(|first| is_made(first));
+            let whole = whole.map(|_| {
+                let mut run = self.run(&items, true);
+                start_at_head(&mut run);
+                run
+            });
+            return whole.into_iter().collect();
+        };
+
+        // Else every part between two breaks becomes an open one.
+        let ends = breaks.iter().skip(1).copied();
+        let ends = ends.chain([first_break + items.len()]);
+        let parts = breaks
+            .iter()
+            .zip(ends)
+            .filter(|(from, _)| is_made(&items[**from]));
+        parts
+            .map(|(from, to)| {
+                let part: Vec<Item<'_>> = (*from..to).map(|k| items[k % items.len()]).collect();
+                self.run(&part, false)
+            })
+            .collect()
+    }
+
     fn run(&self, items: &[Item<'_>], closed: bool) -> Run {
         let first = items[0].line;
         let mut points = vec![self.point(&items[0], items[0].span.from)];

@@ -135,11 +135,16 @@ impl OutlineGrid {
 
     /// Whether the cells that a piece's image passes hold more than [`CROWD`] outlines. O(cells).
     pub fn is_crowded(&self, piece: &Piece) -> bool {
+        self.count_along(piece) > CROWD
+    }
+
+    /// Number of outlines in the cells that a piece's image passes; those in several cells count in each. O(cells).
+    pub(crate) fn count_along(&self, piece: &Piece) -> usize {
         let mut count = 0;
         self.cells_of(piece, |cell| {
             count += (self.starts[cell + 1] - self.starts[cell]) as usize;
         });
-        count > CROWD
+        count
     }
 
     /// Visits the cells that a piece's image passes, row by row.
@@ -258,6 +263,16 @@ impl Seen<'_> {
         if self.outlines.is_crowded(piece) {
             return self.crowded_spans(piece, circumstances, &[], memory);
         }
+        self.spans_between_outlines(piece, circumstances, memory)
+    }
+
+    /// The spans of a piece, from every outline that it crosses, however many there are.
+    pub(crate) fn spans_between_outlines(
+        &self,
+        piece: &Piece,
+        circumstances: &Circumstances,
+        memory: &mut Memory,
+    ) -> Vec<Span> {
         let cuts = self.cuts(piece, &circumstances.piercings);
         let mut spans: Vec<Span> = Vec::with_capacity(1);
         for pair in cuts.windows(2) {

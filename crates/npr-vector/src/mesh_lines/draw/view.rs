@@ -40,6 +40,10 @@ impl Toll {
             has_images: false,
         }
     }
+
+    fn take_spans(&mut self, count: usize) -> Result<(), OverBudget> {
+        self.budget.take("parts of lines", count, size_of::<Span>())
+    }
 }
 
 /// One view of a shape.
@@ -156,9 +160,7 @@ impl View<'_> {
             .collect();
 
         // Look at crowded pieces by the ink on the paper.
-        let spans = lines.iter().flatten().map(|line| line.spans.len()).sum();
-        toll.budget
-            .take("parts of lines", spans, size_of::<Span>())?;
+        toll.take_spans(lines.iter().flatten().map(|line| line.spans.len()).sum())?;
         self.add_crowded(graph, seen, &mut lines, toll)?;
         Ok(lines)
     }
@@ -179,6 +181,33 @@ impl View<'_> {
         if crowded.is_empty() {
             return Ok(());
         }
+
+        // A few of them cross outlines in less time than it takes to sort all faces into the picture.
+        let pieces = crowded.iter().filter_map(|index| lines[*index].as_ref());
+        let crossings: usize = pieces
+            .map(|line| seen.outlines.count_along(&line.piece))
+            .sum();
+        if crossings <= self.shape.faces.len() {
+            let found: Vec<Option<Vec<Span>>> = crowded
+                .par_iter()
+                .map_init(Memory::default, |memory, index| {
+                    let piece = &lines[*index].as_ref()?.piece;
+                    let node = &graph.nodes[*index];
+                    let other = graph.nodes.get(node.next as usize)?;
+                    let of_piece = self.circumstances(node, other, false);
+                    Some(seen.spans_between_outlines(piece, &of_piece, memory))
+                })
+                .collect();
+            for (index, spans) in crowded.iter().zip(found) {
+                if let (Some(line), Some(spans)) = (&mut lines[*index], spans) {
+                    toll.take_spans(spans.len())?;
+                    line.spans = spans;
+                }
+            }
+            return Ok(());
+        }
+
+        // Else sort the faces into the picture, once a view.
         if !toll.has_images {
             let (count, bytes) = (self.shape.faces.len(), FaceImages::BYTES_PER_FACE);
             toll.budget.take("boxes of faces", count, bytes)?;
@@ -206,8 +235,7 @@ impl View<'_> {
                     toll.left_out += 1;
                     continue;
                 };
-                toll.budget
-                    .take("parts of lines", spans.len(), size_of::<Span>())?;
+                toll.take_spans(spans.len())?;
                 toll.ink.draw(&line.piece, &spans, self.settings.hidden);
                 line.spans = spans;
             }

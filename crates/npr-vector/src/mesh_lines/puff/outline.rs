@@ -99,8 +99,7 @@ impl SmokeLines<'_> {
             surfaces: vec![Surface::default()],
             ..HalfEdgeMesh::default()
         };
-        let mut found = runs(&smoke, seen.projector, &graph, &lines);
-        found.retain(|run| settings.hidden || run.occluders == 0);
+        let found = runs(&smoke, seen.projector, &graph, (&lines, settings.hidden));
         let mut found = calmed(found, settings);
         for run in &mut found {
             run.id |= SMOKE_ID;
