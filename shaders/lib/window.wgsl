@@ -28,6 +28,11 @@ fn world_per_pixel(view: View, depth: f32) -> f32 {
     return height_at(view, depth) / view.frame_px.y;
 }
 
+// 1 at the near plane, falling with depth to 0; a half in a parallel view.
+fn nearness_of(view: View, depth: f32) -> f32 {
+    return select(0.5, view.near / max(depth, view.near), view.perspective > 0.5);
+}
+
 // The reversed depth of a view depth: 1 on the near plane, less behind it.
 fn reversed_of(view: View, depth: f32) -> f32 {
     if view.perspective > 0.5 { return view.near / depth; }

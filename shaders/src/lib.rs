@@ -98,6 +98,16 @@ shaders! {
     LINE_STAMP_RESIDUAL = "line/stamp_residual";
     /// Draws the mask itself.
     LINE_DRAW_MASK = "line/draw_mask";
+    /// Looks what hides samples of lines.
+    STROKE_SEE_SAMPLES = "stroke/see_samples";
+    /// Decides where lines are clearly visible or hidden.
+    STROKE_WEIGH_SAMPLES = "stroke/weigh_samples";
+    /// Lets lines change only where it is clear.
+    STROKE_FILTER_VISIBILITY = "stroke/filter_visibility";
+    /// Marks where parts of lines begin.
+    STROKE_PART_SAMPLES = "stroke/part_samples";
+    /// Makes points of ink of what is seen of lines.
+    STROKE_INK_SAMPLES = "stroke/ink_samples";
     /// Draws strokes with width.
     STROKE_DRAW_STROKES = "stroke/draw_strokes";
     /// Decides which faces are turned to the eye.
@@ -140,12 +150,6 @@ shaders! {
     VECTOR_TURN_RANKS = "vector/turn_ranks";
     /// Puts the nodes of all chains in a row.
     VECTOR_ORDER_NODES = "vector/order_nodes";
-    /// Looks how much of a line's samples is hidden.
-    VECTOR_SAMPLE_VISIBILITY = "vector/sample_visibility";
-    /// Decides where lines are clearly visible or hidden.
-    VECTOR_WEIGH_SAMPLES = "vector/weigh_samples";
-    /// Lets lines change only where it is clear.
-    VECTOR_FILTER_VISIBILITY = "vector/filter_visibility";
     /// Marks the edges that a picture of lines shows.
     VECTOR_MARK_EDGES = "vector/mark_edges";
     /// Lays edges on the fine grid of a picture.

@@ -34,7 +34,7 @@ const fn twins(
 }
 
 /// Where the shares stand by which samples of a line are weighed.
-const FILTER: &str = "npr-vector/src/mesh_lines/sample/filter.rs";
+const FILTER: &str = "npr-vector/src/sampled/filter.rs";
 
 /// Where the twins of all constants stand.
 #[rustfmt::skip]
@@ -113,18 +113,20 @@ const TWINS: &[Twins] = &[
     twins("shade/compose_frame.wgsl", "", "npr-style/src/tone.rs", ""),
     twins("smoke/project_spheres.wgsl", "", "npr-core/src/smoke.rs", ""),
     twins("smoke/resolve_picture.wgsl", "SMOKE_", "npr-style/src/smoke/resolve.rs", ""),
+    twins("lib/spine.wgsl", "LINE_", "npr-vector/src/sampled.rs", "SampledLine::"),
+    twins("stroke/see_samples.wgsl", "", "npr-vector/src/sampled/see.rs", ""),
+    twins("stroke/weigh_samples.wgsl", "", FILTER, ""),
+    twins("stroke/ink_samples.wgsl", "", "npr-vector/src/sampled/ink.rs", ""),
     twins("vector/draw_nearest.wgsl", "", "npr-vector/src/pixel_strokes/fragment.rs", ""),
     twins("vector/project_edges.wgsl", "", "npr-vector/src/pixel_strokes/segment.rs", ""),
-    twins("vector/sample_visibility.wgsl", "", "npr-vector/src/mesh_lines/sample.rs", ""),
     twins("vector/scan_add.wgsl", "", "npr-vector/src/rank/scan.rs", ""),
     twins("vector/scan_blocks.wgsl", "", "npr-vector/src/rank/scan.rs", ""),
     twins("vector/size_work.wgsl", "", "npr-vector/src/rank/work.rs", ""),
     twins("vector/size_work.wgsl", "BLOCK", "npr-vector/src/rank/scan.rs", "BLOCK"),
     twins("vector/size_work.wgsl", "BLOCKS_IN_ROW", "npr-vector/src/rank/work.rs", "BLOCKS_IN_ROW"),
     twins("vector/size_work.wgsl", "RUN", "npr-vector/src/rank/scan.rs", "RUN"),
-    twins("vector/weigh_samples.wgsl", "", FILTER, ""),
-    twins("vector/weigh_samples.wgsl", "CLEARLY_VISIBLE", FILTER, "CLEAR_SHARES[0]"),
-    twins("vector/weigh_samples.wgsl", "CLEARLY_HIDDEN", FILTER, "CLEAR_SHARES[1]"),
+    twins("stroke/weigh_samples.wgsl", "CLEARLY_VISIBLE", FILTER, "CLEAR_SHARES[0]"),
+    twins("stroke/weigh_samples.wgsl", "CLEARLY_HIDDEN", FILTER, "CLEAR_SHARES[1]"),
 ];
 
 /// Constants without a constant in Rust, and what they stand for.

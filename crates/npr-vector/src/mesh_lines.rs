@@ -2,8 +2,8 @@
 //!
 //! 1. Find curves on the mesh: [`contour`] between faces, [`zero_set`] across them, [`feature`], [`intersect`] and
 //!    [`polyline`]; [`graph`] holds them, linked.
-//! 2. Find what hides them: `visibility` with [`bvh`]; [`sample`] does it by samples, as devices do; [`puff`] adds
-//!    smoke.
+//! 2. Find what hides them: `visibility` with [`bvh`]; or leave that to [`sampled`](crate::sampled) pictures; [`puff`]
+//!    adds smoke.
 //! 3. Make strokes of what is seen: `run_assembly` cuts it into the parts of [`run`]; `relabel_intersections`,
 //!    `duplicates`, `merge`, `overshoot`, `corner` and `smooth` tidy them.
 
@@ -25,7 +25,6 @@ pub mod puff;
 mod relabel_intersections;
 pub mod run;
 mod run_assembly;
-pub mod sample;
 mod smooth;
 mod suppressed_edges;
 mod visibility;

@@ -1,56 +1,73 @@
-//! Passes that find the visible samples of lines on a frame's G-buffer.
+//! Passes that find the visible parts of lines in a frame, and ink them.
 
 use super::sums::{Compacted, add_compact};
 use super::work::ListWork;
 use crate::graph::{Graph, ResourceId};
-use crate::passes::vector;
+use crate::passes::stroke;
+use npr_vector::ink_point::InkPoint;
 
 /// Samples of lines, and the frame that they lie in.
 #[derive(Debug, Clone, Copy)]
 pub struct SampledFrame {
     /// [`View`](npr_core::window::View).
     pub view: ResourceId,
-    /// [`Window`](npr_core::window::Window) of the G-buffer.
+    /// [`Window`](npr_core::window::Window) of the grid of `ids`.
     pub window: ResourceId,
-    /// [`GPixel`](npr_core::geometry::GPixel)s.
-    pub gbuffer: ResourceId,
-    /// [`SpineSample`](npr_vector::mesh_lines::sample::SpineSample)s.
+    /// Number of the triangle at every pixel.
+    pub ids: ResourceId,
+    /// [`PosedVertex`](npr_core::geometry::PosedVertex)es.
+    pub posed: ResourceId,
+    /// [`Triangle`](npr_core::geometry::Triangle)s.
+    pub triangles: ResourceId,
+    /// [`SpineSample`](npr_vector::sampled::SpineSample)s, an even number.
     pub samples: ResourceId,
-    /// Where each line starts among the samples; one more than there are lines.
-    pub line_starts: ResourceId,
-    /// Number of samples on either side over which shares are averaged, a uniform.
-    pub radius: ResourceId,
+    /// [`SampledLine`](npr_vector::sampled::SampledLine)s; the last, without width, fills the buffer of samples.
+    pub lines: ResourceId,
+    /// [`PartWidth`](npr_vector::sampled::PartWidth), a uniform.
+    pub width: ResourceId,
 }
 
-/// Appends passes that find whether every sample is visible; gives a buffer of `u32`, 1 or 0.
+/// Appends passes that find which parts of lines are visible; gives a buffer of
+/// [`InkPoint`](npr_vector::ink_point::InkPoint)s, one for every two samples.
 ///
-/// The result is that of [`visible_samples`](npr_vector::mesh_lines::sample::visible_samples) of
-/// [`sample_visibility`](npr_vector::mesh_lines::sample::sample_visibility). Takes seven passes up to 4096 samples, and
-/// 28 bytes for each besides itself.
+/// The result is that of [`inked`](npr_vector::sampled::inked) of
+/// [`visible_samples`](npr_vector::sampled::visible_samples) of [`see_samples`](npr_vector::sampled::see_samples).
+/// Takes 13 passes up to 262144 samples, and 56 bytes for each besides itself.
 pub fn add_sampling(graph: &mut Graph, on: &SampledFrame) -> ResourceId {
     // Look at every sample from the eye.
     let count = graph.element_count(on.samples);
-    let shares = graph.buffer::<f32>("visible shares", count);
-    let looked_at = [on.view, on.window, on.gbuffer, on.samples, shares];
-    graph.compute(&vector::SAMPLE_VISIBILITY, &looked_at);
+    let gaps = graph.buffer::<f32>("gaps before samples", count);
+    let seen = [
+        on.view,
+        on.window,
+        on.ids,
+        on.posed,
+        on.triangles,
+        on.samples,
+        gaps,
+    ];
+    graph.compute(&stroke::SEE_SAMPLES, &seen);
 
     // Weigh what is seen, and find the samples whose verdict is clear.
     let verdicts = graph.buffer::<u32>("verdicts", count);
     let clear = graph.buffer::<u32>("clear samples", count);
-    let weighed = [
-        on.radius,
-        on.samples,
-        on.line_starts,
-        shares,
-        verdicts,
-        clear,
-    ];
-    graph.compute(&vector::WEIGH_SAMPLES, &weighed);
+    let weighed = [on.width, on.samples, on.lines, gaps, verdicts, clear];
+    graph.compute(&stroke::WEIGH_SAMPLES, &weighed);
 
     // Let every other sample show what the last clear one before it shows.
     let Compacted { list, slots, .. } = add_compact(graph, clear, count, &ListWork::WHOLE);
     let visible = graph.buffer::<u32>("visible samples", count);
     let filtered = [verdicts, clear, slots, list, visible];
-    graph.compute(&vector::FILTER_VISIBILITY, &filtered);
-    visible
+    graph.compute(&stroke::FILTER_VISIBILITY, &filtered);
+
+    // Find where parts begin, and ink those that are seen.
+    let starts = graph.buffer::<u32>("starts of parts", count);
+    graph.compute(&stroke::PART_SAMPLES, &[on.samples, visible, starts]);
+    let Compacted { list, slots, .. } = add_compact(graph, starts, count, &ListWork::WHOLE);
+    let points = graph.buffer::<InkPoint>("points of samples", count / 2);
+    let inked = [
+        on.view, on.width, on.lines, on.samples, gaps, visible, starts, slots, list, points,
+    ];
+    graph.compute(&stroke::INK_SAMPLES, &inked);
+    points
 }

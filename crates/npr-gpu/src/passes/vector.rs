@@ -1,15 +1,12 @@
-//! Passes that link points to lines, rank them, and find their visible samples.
+//! Passes that link points to lines and rank them.
 //!
 //! [`crate::curves`] lines them up. Passes with an `extent` work on as many elements as its first element holds, since
 //! their number is found on the device; elements after them keep their values. [`SIZE_WORK`] makes the sizes of passes
 //! that work on no more workgroups than hold a list.
 
 use crate::pass::{Agreement, Pass, Work, read, uniform, write};
-use npr_core::geometry::GPixel;
-use npr_core::window::{View, Window};
 use npr_vector::mesh_lines::contour::steps::{self, HalfEdge, Marked, Viewer};
 use npr_vector::mesh_lines::graph::CurveNode;
-use npr_vector::mesh_lines::sample::{self, SpineSample, Surroundings};
 use npr_vector::rank::jump::Walk;
 use npr_vector::rank::jump::{self, Hop, Reach};
 use npr_vector::rank::place::{self, ListPosition, Standing};
@@ -347,66 +344,4 @@ pub const ORDER_NODES: Pass = Pass {
     work: Work::PerElement { of: "standings" },
     agreement: Agreement::Exact,
     twin: |b| place::order_nodes(b.read(0), b.read(1), b.write(2)),
-};
-
-/// The share of places beside each sample of a line at which nothing hides it.
-pub const SAMPLE_VISIBILITY: Pass = Pass {
-    name: "vector.sample_visibility",
-    shader: npr_shaders::VECTOR_SAMPLE_VISIBILITY,
-    slots: &[
-        uniform::<View>("view"),
-        uniform::<Window>("window"),
-        read::<GPixel>("gbuffer"),
-        read::<SpineSample>("samples"),
-        write::<f32>("shares"),
-    ],
-    work: Work::PerElement { of: "samples" },
-    // Depths are compared: of a surface just at the tolerance, engines may think differently.
-    agreement: Agreement::Texels(0.001),
-    twin: |b| {
-        let on = Surroundings {
-            view: &b.one(0),
-            window: &b.one(1),
-            gbuffer: b.read(2),
-        };
-        sample::sample_visibility(&on, b.read(3), b.write(4));
-    },
-};
-
-/// Whether a line is visible at each sample by itself, and whether that is clear.
-pub const WEIGH_SAMPLES: Pass = Pass {
-    name: "vector.weigh_samples",
-    shader: npr_shaders::VECTOR_WEIGH_SAMPLES,
-    slots: &[
-        uniform::<u32>("radius"),
-        read::<SpineSample>("samples"),
-        read::<u32>("line_starts"),
-        read::<f32>("shares"),
-        write::<u32>("verdicts"),
-        write::<u32>("clear"),
-    ],
-    work: Work::PerElement { of: "samples" },
-    agreement: Agreement::Exact,
-    twin: |b| {
-        let (verdicts, clear) = (b.write(4), b.write(5));
-        sample::weigh_samples(b.one(0), b.read(1), b.read(2), b.read(3), verdicts, clear);
-    },
-};
-
-/// Whether each sample is visible: lines change only where that is clear.
-pub const FILTER_VISIBILITY: Pass = Pass {
-    name: "vector.filter_visibility",
-    shader: npr_shaders::VECTOR_FILTER_VISIBILITY,
-    slots: &[
-        read::<u32>("verdicts"),
-        read::<u32>("clear"),
-        read::<u32>("slots"),
-        read::<u32>("clear_list"),
-        write::<u32>("visible"),
-    ],
-    work: Work::PerElement { of: "verdicts" },
-    agreement: Agreement::Exact,
-    twin: |b| {
-        sample::filter_visibility(b.read(0), b.read(1), b.read(2), b.read(3), b.write(4));
-    },
 };

@@ -1,12 +1,14 @@
 //! What every slot of every pass holds in a frame: the scene, and what the twins make of it.
 
 use crate::scene::{
-    FRAME_PX, Look, SHADOW_SIDE, SHADOWS, Scene, bare_compose, compose, lights, outline,
-    part_subjects, rules, shadow_of, smoke_look, spheres, strokes, view,
+    FRAME_PX, Look, PART_WIDTH, SHADOW_SIDE, SHADOWS, Scene, bare_compose, compose, lights,
+    outline, part_subjects, rules, sampled_lines, shadow_of, smoke_look, spheres, strokes, view,
 };
 use npr_core::geometry::{ChartCorners, EdgeRole, GPixel, Stamp};
 use npr_core::smoke::SphereView;
 use npr_core::window::Window;
+use npr_gpu::curves::sums::add_compact;
+use npr_gpu::curves::work::ListWork;
 use npr_gpu::engine::Engine;
 use npr_gpu::graph::{Graph, ImageLayer, Kind, ResourceId};
 use npr_gpu::pass::{Access, Format, Pass, Slot};
@@ -14,10 +16,13 @@ use npr_gpu::passes::{backdrop, line, mesh, raster, shade, smoke, stroke};
 use npr_gpu::processor::Processor;
 use npr_style::backdrop::{ContrastBias, TILE, TileRims};
 use npr_style::compose::TriangleConstants;
+use npr_vector::ink_point::InkPoint;
 use std::collections::BTreeMap;
 
 /// Slots that bind a resource of another name: two passes work on the grid of the mask only and call it the window.
-const RENAMED: [(&str, &str, &str); 24] = [
+const RENAMED: [(&str, &str, &str); 26] = [
+    ("stroke.see_samples", "window", "sample_window"),
+    ("stroke.ink_samples", "points", "sampled_points"),
     ("shade.compose_frame", "triangles", "known"),
     ("shade.compose_frame", "surfaces", "triangles"),
     ("backdrop.flag_tiles", "window", "tile_window"),
@@ -76,7 +81,17 @@ pub struct Frame {
 
 impl Frame {
     /// The names of what passes make.
-    pub const MADE: [&str; 51] = [
+    pub const MADE: [&str; 61] = [
+        "gaps",
+        "verdicts",
+        "clear",
+        "clear_slots",
+        "clear_list",
+        "visible",
+        "part_starts",
+        "part_slots",
+        "part_firsts",
+        "sampled_points",
         "list",
         "posed",
         "lit",
@@ -281,6 +296,37 @@ impl Builder {
         self.draw(&smoke::RESOLVE_PICTURE, "window", targets, true);
     }
 
+    /// What is seen of lines, and the ink of it.
+    fn see_lines(&mut self) {
+        // Hand over the lines.
+        let (lines, samples) = sampled_lines();
+        self.give_uniform("width", &[PART_WIDTH]);
+        self.give_buffer("lines", &lines);
+        self.give_buffer("samples", &samples);
+        for name in ["gaps", "verdicts", "clear", "visible", "part_starts"] {
+            self.make_buffer(name, 4, samples.len());
+        }
+        self.make_buffer("sampled_points", size_of::<InkPoint>(), samples.len() / 2);
+
+        // Look at them, and list what lists are made of.
+        self.compute(&stroke::SEE_SAMPLES);
+        self.compute(&stroke::WEIGH_SAMPLES);
+        self.list("clear", ["clear_slots", "clear_list"]);
+        self.compute(&stroke::FILTER_VISIBILITY);
+        self.compute(&stroke::PART_SAMPLES);
+        self.list("part_starts", ["part_slots", "part_firsts"]);
+        self.compute(&stroke::INK_SAMPLES);
+    }
+
+    /// Lists marked elements, by the names of their slots and of the list.
+    fn list(&mut self, flags: &'static str, names: [&'static str; 2]) {
+        let count = self.graph.element_count(self.ids[flags]);
+        let whole = &ListWork::WHOLE;
+        let listed = add_compact(&mut self.graph, self.ids[flags], count, whole);
+        self.ids.insert(names[0], listed.slots);
+        self.ids.insert(names[1], listed.list);
+    }
+
     fn line_up_passes(&mut self, look: Look, size: [u32; 2], mask_size: [u32; 2]) {
         let (pixels, mask_pixels) = (area(size), area(mask_size));
         self.make_image("mask_ids", Format::U32, mask_size);
@@ -344,6 +390,7 @@ impl Builder {
         self.draw(&line::DRAW_RIBBONS, "window", ["ribbons", "keys"], true);
         let targets = ["inked", "ink_keys"];
         self.draw(&stroke::DRAW_STROKES, "window", targets, true);
+        self.see_lines();
         self.compute(&line::FIND_RESIDUAL);
         self.compute(&line::SMOOTH_STAMPS);
         self.compute(&line::CLAIM_PIXELS);

@@ -2,7 +2,6 @@
 //! them.
 
 use crate::pixels::is_over_pixels;
-use crate::sampled::Sampled;
 use crate::shapes::{eyes, shape_of};
 use npr_core::math::mix_bits;
 use npr_gpu::pass::Pass;
@@ -10,9 +9,6 @@ use npr_vector::mesh_lines::contour::steps::{
     HalfEdge, Marked, Viewer, face_eye, half_edges, judges, link_contours, mark_contours,
 };
 use npr_vector::mesh_lines::graph::CurveNode;
-use npr_vector::mesh_lines::sample::{
-    SampledLines, Surroundings, sample_visibility, weigh_samples,
-};
 use npr_vector::rank::jump::Walk;
 use npr_vector::rank::jump::{Hop, Reach, break_loops, cut_loops, rank_jump, start_nodes};
 use npr_vector::rank::place::{ListPosition, Standing};
@@ -40,8 +36,7 @@ pub enum Jumping {
 }
 
 /// Slots that read content of another name.
-const RENAMED: [(&str, &str, &str); 12] = [
-    ("vector.filter_visibility", "slots", "clear_slots"),
+const RENAMED: [(&str, &str, &str); 11] = [
     ("vector.list_nodes", "extent", "mark_count"),
     ("vector.link_contours", "extent", "mark_count"),
     ("vector.link_contours", "slots", "mark_slots"),
@@ -77,7 +72,6 @@ impl Lists {
         lists.give_jumps(&links, &elements);
         lists.give_sums(&links);
         lists.give_contours();
-        lists.give_samples();
         lists
     }
 
@@ -204,50 +198,6 @@ impl Lists {
         self.give("keys", &keys);
         self.give("prefixes", &prefixes);
         self.give("offsets", &exclusive_scan(&sums).0);
-    }
-
-    /// Samples of lines in a frame, and what is seen of them.
-    fn give_samples(&mut self) {
-        let sampled = Sampled::new(self.node_count);
-        let Sampled {
-            frame: (view, window, gbuffer),
-            radius,
-            lines:
-                SampledLines {
-                    samples,
-                    line_starts,
-                },
-        } = &sampled;
-        let on = Surroundings {
-            view,
-            window,
-            gbuffer,
-        };
-        let mut shares = self.made();
-        sample_visibility(&on, samples, &mut shares);
-        let (mut verdicts, mut clear) = (self.made(), self.made());
-        weigh_samples(
-            *radius,
-            samples,
-            line_starts,
-            &shares,
-            &mut verdicts,
-            &mut clear,
-        );
-        let (slots, _) = exclusive_scan(&clear);
-        let mut list = self.made();
-        compact(&clear, &slots, &mut list);
-        self.give("view", &[*view]);
-        self.give("window", &[*window]);
-        self.give("gbuffer", gbuffer);
-        self.give("samples", samples);
-        self.give("line_starts", line_starts);
-        self.give("radius", &[*radius]);
-        self.give("shares", &shares);
-        self.give("verdicts", &verdicts);
-        self.give("clear", &clear);
-        self.give("clear_slots", &slots);
-        self.give("clear_list", &list);
     }
 
     /// Contours of a shape with as many faces as there are nodes.

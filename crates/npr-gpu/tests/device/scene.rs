@@ -21,6 +21,7 @@ use npr_style::tone_row::{row_words, tone_row};
 use npr_stylesheet::{HueStop, hue_row};
 use npr_vector::brush::Brush;
 use npr_vector::ink_point::InkPoint;
+use npr_vector::sampled::{PartWidth, SampledLine, SpineSample};
 
 /// Width and height of the frame that windows are laid over.
 pub const FRAME_PX: [u32; 2] = [160, 90];
@@ -569,6 +570,58 @@ pub fn strokes() -> Vec<InkPoint> {
     points[1].px = points[0].px;
     points
 }
+
+/// Straight lines across the frame at all depths of the scene, some as rings and some brushed; the last one fills the
+/// list up.
+pub fn sampled_lines() -> (Vec<SampledLine>, Vec<SpineSample>) {
+    let mut random = Random::new(31);
+    let (mut lines, mut samples) = (Vec::new(), Vec::new());
+    for number in 0..60 {
+        let is_filling = number == 59;
+        let count = 2 * (1 + number * 7 % 50);
+        let from = FRAME_PX.map(|side| (1.2 * random.unit() - 0.1) * side as f32);
+        let along = [random.unit() - 0.5, random.unit() - 0.5];
+        let (depth, deeper) = (3.0 + 9.0 * random.unit(), 0.02 * random.unit());
+        lines.push(SampledLine {
+            first: samples.len() as u32,
+            count,
+            step_px: 0.9,
+            ink_flags: (number % 4) << InkPoint::BRUSH_SHIFT,
+            u_start: random.unit(),
+            u_per_px: 0.05,
+            full_half_width: 3.0,
+            bits: number * 5 % 16,
+        });
+        samples.extend((0..count).map(|i| {
+            let spine_px = [0, 1].map(|axis| from[axis] + i as f32 * along[axis]);
+            SpineSample {
+                spine_px,
+                depth: depth + deeper * i as f32,
+                line: number,
+                px: spine_px.map(|at| at + 0.3),
+                half_width: if is_filling {
+                    0.0
+                } else {
+                    0.2 + 3.0 * random.unit()
+                },
+                color: 0xff00_0000 | number,
+            }
+        }));
+    }
+    (lines, samples)
+}
+
+/// Tapers, short lines and pressure, of which all take part in [`sampled_lines`].
+pub const PART_WIDTH: PartWidth = PartWidth {
+    along: [[0.5, 1.0, 0.75, 1.0]; 8],
+    taper_px: [12.0, 30.0],
+    taper_share: 0.4,
+    tip: 0.1,
+    short_px: 20.0,
+    speck_px: 4.0,
+    at_all_ends: 0,
+    radius: 1,
+};
 
 /// A pen, a dry brush, an airbrush and a brush that is a picture of odd sides.
 fn brushes(store: &mut TextureStore) -> Vec<Brush> {

@@ -291,6 +291,12 @@ fn hides(shape: &HalfEdgeMesh, face: u32, (eye, direction): (DVec3, DVec3), touc
     })
 }
 
+/// Whether a face lies between the eye and a point.
+pub(crate) fn hides_alone(shape: &HalfEdgeMesh, face: u32, sight: &Sight) -> bool {
+    let (eye, point) = (DVec3::from(sight.eye), DVec3::from(sight.point));
+    hides(shape, face, (eye, point - eye), sight.touch)
+}
+
 /// The space that a face hides from an eye: a plane and the three sides of the cone behind the face.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Barrier {

@@ -6,6 +6,7 @@
 mod calm;
 mod paint;
 mod prepared;
+mod spines;
 mod view;
 
 pub use crate::mesh_lines::line_settings::{LineSettings, LineSource};
@@ -13,6 +14,7 @@ pub(crate) use calm::calmed;
 pub(crate) use paint::strokes_of;
 pub use paint::{PaintAt, PointPaint, StrokeLook};
 pub use prepared::{FindCrossings, Prepared};
+pub use spines::spines;
 
 use crate::mesh_lines::contour::{EdgeContours, Eye};
 use crate::mesh_lines::puff::SmokeLines;

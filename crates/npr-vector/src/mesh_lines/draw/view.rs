@@ -252,13 +252,7 @@ impl View<'_> {
         wanted: u32,
         memory: &mut Memory,
     ) -> Option<Line> {
-        // Leave out what is not wanted, and concave edges whose backs nobody sees.
-        let kinds = self.kinds_of(node) & wanted;
-        let kind = Kind::first_of(kinds)?;
-        let concave = EdgeFlags::CONCAVE.is_in(node.flags);
-        if concave && !self.prepared.may_show_backs(self.shape, node.face) {
-            return None;
-        }
+        let kind = self.drawn_kind(node, wanted)?;
 
         // Find what is seen of it; crowded pieces wait.
         let (piece, other) = self.piece_after(graph, node)?;
@@ -266,22 +260,39 @@ impl View<'_> {
             true => Vec::new(),
             false => seen.spans(&piece, &self.circumstances(node, other, false), memory),
         };
+        Some(self.line_of(node, kind, piece, spans))
+    }
 
-        // Tell whose line it is.
+    /// The kind that the piece after a node is drawn as; `None` where it is not wanted, and for concave edges whose
+    /// backs nobody sees.
+    pub(super) fn drawn_kind(&self, node: &CurveNode, wanted: u32) -> Option<Kind> {
+        let kind = Kind::first_of(self.kinds_of(node) & wanted)?;
+        let concave = EdgeFlags::CONCAVE.is_in(node.flags);
+        (!concave || self.prepared.may_show_backs(self.shape, node.face)).then_some(kind)
+    }
+
+    /// The line after a node, on its surface.
+    pub(super) fn line_of(
+        &self,
+        node: &CurveNode,
+        kind: Kind,
+        piece: Piece,
+        spans: Vec<Span>,
+    ) -> Line {
         let surface = match self.shape.polyline_of(node.edge) {
             Some(polyline) => self.shape.polyline_surfaces[polyline],
             None => self.shape.face_surfaces[node.face as usize],
         };
-        Some(Line {
+        Line {
             kind,
             surface,
             piece,
             spans,
-        })
+        }
     }
 
     /// The piece after a node, with the node it runs to; `None` where the line ends or the piece is out of the frame.
-    fn piece_after<'g>(
+    pub(super) fn piece_after<'g>(
         &self,
         graph: &'g CurveGraph,
         node: &CurveNode,

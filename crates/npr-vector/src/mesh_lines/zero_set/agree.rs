@@ -16,7 +16,6 @@ use super::segment_grid::{Nearest, SegmentGrid};
 use super::signs::{Crossing, FlatFaces, Signs};
 use super::{runs_along_edge, zero_set};
 use crate::mesh_lines::graph::{CurveGraph, CurveNode};
-use crate::mesh_lines::sample::settle_runs;
 use crate::mesh_lines::visibility::{Piece, Span};
 use crate::project::Projector;
 use glam::DVec3;
@@ -393,6 +392,28 @@ fn spans_of(counts: &[u32]) -> Vec<Span> {
             }
         })
         .collect()
+}
+
+/// Closes hidden gaps in a line shorter than `least`, then hides visible specks shorter than that between hidden parts.
+///
+/// `hidden` and `lengths` hold one entry per sample of one line; its ends stay as they are. O(samples).
+pub(super) fn settle_runs(hidden: &mut [bool], lengths: &[f64], least: f64) {
+    for turns in [true, false] {
+        let mut from = 0;
+        while from < hidden.len() {
+            let same = hidden[from..]
+                .iter()
+                .take_while(|h| **h == hidden[from])
+                .count();
+            let to = from + same;
+            let length: f64 = lengths[from..to].iter().sum();
+            let inner = from > 0 && to < hidden.len();
+            if inner && hidden[from] == turns && length < least {
+                hidden[from..to].fill(!turns);
+            }
+            from = to;
+        }
+    }
 }
 
 #[cfg(test)]

@@ -173,6 +173,21 @@ fn hidden_contours_hide_the_smooth_line_beside_them() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(1000))]
 
+    #[test]
+    fn settled_runs_are_long_or_at_an_end(
+        mut hidden in proptest::collection::vec(any::<bool>(), 0..60), least in 0.0f64..6.0,
+    ) {
+        let ends = [hidden.first().copied(), hidden.last().copied()];
+        let lengths = vec![1.0; hidden.len()];
+        settle_runs(&mut hidden, &lengths, least);
+        prop_assert_eq!(ends, [hidden.first().copied(), hidden.last().copied()]);
+        let runs: Vec<&[bool]> = hidden.chunk_by(|a, b| a == b).collect();
+        for run in runs.iter().take(runs.len().saturating_sub(1)).skip(1) {
+            // A gap may outlive a speck beside it, but no speck is left.
+            prop_assert!(run[0] || run.len() as f64 >= least);
+        }
+    }
+
     /// What sights decided stays; the rest is settled as if they had decided nothing.
     #[test]
     fn settling_leaves_what_is_known(

@@ -1,15 +1,15 @@
-// vector.weigh_samples: whether each sample is visible by the mean share around it, and whether that verdict is clear.
+// stroke.weigh_samples: whether each sample is visible by most of the samples around it, and whether that verdict is clear.
 //
 // Source  Cole & Finkelstein 2010, filtering along the line
-// Twin    npr_vector::mesh_lines::sample::weigh_samples
+// Twin    npr_vector::sampled::weigh_samples
 //
 //# use lib/grid
 //# use lib/spine
 
-@group(0) @binding(0) var<uniform> radius: u32;
+@group(0) @binding(0) var<uniform> width: PartWidth;
 @group(0) @binding(1) var<storage, read> samples: array<SpineSample>;
-@group(0) @binding(2) var<storage, read> line_starts: array<u32>;
-@group(0) @binding(3) var<storage, read> shares: array<f32>;
+@group(0) @binding(2) var<storage, read> lines: array<SampledLine>;
+@group(0) @binding(3) var<storage, read> gaps: array<f32>;
 @group(0) @binding(4) var<storage, read_write> verdicts: array<u32>;
 @group(0) @binding(5) var<storage, read_write> clear: array<u32>;
 
@@ -27,17 +27,15 @@ fn main(
     let element = element_index(wid, nwg, lid, WG);
     if element >= arrayLength(&samples) { return; }
 
-    let line = samples[element].line;
-    let start = line_starts[line];
-    let end = line_starts[line + 1u];
-    let first = element - min(radius, element - start);
-    let last = element + min(radius, end - 1u - element);
+    let line = lines[samples[element].line];
+    let first = element - min(width.radius, element - line.first);
+    let last = element + min(width.radius, line.first + line.count - 1u - element);
     var sum = 0.0;
     for (var near = first; near <= last; near++) {
-        sum += shares[near];
+        sum += select(1.0, 0.0, gaps[near] > 0.0);
     }
     let count = f32(last - first + 1u);
     let is_clear = sum >= CLEARLY_VISIBLE * count || sum < CLEARLY_HIDDEN * count;
     verdicts[element] = select(0u, 1u, sum >= EVEN_SHARE * count);
-    clear[element] = select(0u, 1u, is_clear || element == start);
+    clear[element] = select(0u, 1u, is_clear || element == line.first);
 }

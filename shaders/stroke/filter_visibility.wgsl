@@ -1,9 +1,9 @@
-// vector.filter_visibility: gives every sample the verdict of the last clear sample up to it.
+// stroke.filter_visibility: gives every sample the verdict of the last clear sample up to it.
 //
 // The first sample of a line is clear, so no line looks beyond its start.
 //
 // Source  Cole & Finkelstein 2010, filtering along the line
-// Twin    npr_vector::mesh_lines::sample::filter_visibility
+// Twin    npr_vector::sampled::filter_visibility
 //
 //# use lib/grid
 

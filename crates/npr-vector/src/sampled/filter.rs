@@ -1,11 +1,11 @@
-//! From shares of samples to runs of lines, all samples at once: the twins of `vector.weigh_samples` and
-//! `vector.filter_visibility`.
+//! From verdicts on samples to parts of lines, all samples at once: the twins of `stroke.weigh_samples` and
+//! `stroke.filter_visibility`.
 //!
 //! A line that is visible becomes hidden only where the mean share is clearly low, and the reverse, so that noise
 //! about one half makes no dashes. What a sample shows is therefore what the last sample before it showed at which
 //! this was clear: a sum over clear samples and a list of them tell which that is, however far back.
 
-use super::SpineSample;
+use super::{PartWidth, SampledLine, SpineSample};
 use crate::rank::scan::{compact, exclusive_scan};
 use rayon::prelude::*;
 
@@ -17,17 +17,16 @@ pub const EVEN_SHARE: f32 = 0.5;
 
 /// Decides by the mean share of every sample and its neighbours whether it is visible, and whether that is clear.
 ///
-/// Line `k` holds the samples from `line_starts[k]` to `line_starts[k + 1]`; the mean goes over `radius` samples to
-/// both sides on the sample's own line. The first sample of a line counts as clear. O(samples · radius), parallel.
+/// The mean goes over [`PartWidth::radius`] samples to both sides on the sample's own line. The first sample of a line
+/// counts as clear. O(samples · radius), parallel.
 ///
 /// # Panics
 ///
-/// When a sample names a line that does not hold it: [`place_samples`](super::place_samples) makes none of those.
+/// When a sample names a line that does not hold it.
 pub fn weigh_samples(
-    radius: u32,
-    samples: &[SpineSample],
-    line_starts: &[u32],
-    shares: &[f32],
+    width: &PartWidth,
+    lines: &[SampledLine],
+    (samples, gaps): (&[SpineSample], &[f32]),
     verdicts: &mut [u32],
     clear: &mut [u32],
 ) {
@@ -38,22 +37,22 @@ pub fn weigh_samples(
             let element = element as u32;
 
             // Keep the window within the line.
-            let line = samples[element as usize].line as usize;
-            let (start, end) = (line_starts[line], line_starts[line + 1]);
-            let from = element - radius.min(element - start);
-            let to = element + radius.min(end - 1 - element);
+            let line = &lines[samples[element as usize].line as usize];
+            let last = line.first + line.count - 1;
+            let from = element - width.radius.min(element - line.first);
+            let to = element + width.radius.min(last - element);
 
             // Let most of the window decide.
             let mut sum = 0.0;
             for near in from..=to {
-                sum += shares[near as usize];
+                sum += if gaps[near as usize] > 0.0 { 0.0 } else { 1.0 };
             }
 
             // Note where it is clear, and where each line starts.
             let count = (to - from + 1) as f32;
             let is_clear = sum >= CLEAR_SHARES[0] * count || sum < CLEAR_SHARES[1] * count;
             *verdict = u32::from(sum >= EVEN_SHARE * count);
-            *clear = u32::from(is_clear || element == start);
+            *clear = u32::from(is_clear || element == line.first);
         });
 }
 
@@ -77,33 +76,27 @@ pub fn filter_visibility(
         });
 }
 
-/// Visibility of samples, 1 or 0 each, by their shares: [`weigh_samples`] and [`filter_visibility`] with the steps
+/// Visibility of samples, 1 or 0 each, by how far in front lies what hides them: [`weigh_samples`] and [`filter_visibility`] with the steps
 /// between them.
 ///
 /// ```
-/// use npr_vector::mesh_lines::sample::{SpineSample, visible_samples};
+/// use npr_vector::sampled::{PartWidth, SampledLine, SpineSample, visible_samples};
 ///
-/// let samples = [SpineSample::default(); 5];
-/// let seen = visible_samples(0, &samples, &[0, 5], &[1.0, 0.5, 0.0, 0.5, 1.0]);
-/// assert_eq!(seen, [1, 1, 0, 0, 1]);
+/// let line = SampledLine { count: 6, ..SampledLine::default() };
+/// let samples = [SpineSample::default(); 6];
+/// let seen = visible_samples(&PartWidth::default(), &[line], &samples, &[0.0, 0.0, 3.5, 2.5, 0.0, 0.0]);
+/// assert_eq!(seen, [1, 1, 0, 0, 1, 1]);
 /// ```
 pub fn visible_samples(
-    radius: u32,
+    width: &PartWidth,
+    lines: &[SampledLine],
     samples: &[SpineSample],
-    line_starts: &[u32],
-    shares: &[f32],
+    gaps: &[f32],
 ) -> Vec<u32> {
     // Weigh each sample with its neighbours.
     let made = || vec![0; samples.len()];
     let (mut verdicts, mut clear, mut clear_list, mut visible) = (made(), made(), made(), made());
-    weigh_samples(
-        radius,
-        samples,
-        line_starts,
-        shares,
-        &mut verdicts,
-        &mut clear,
-    );
+    weigh_samples(width, lines, (samples, gaps), &mut verdicts, &mut clear);
 
     // Let unclear ones take the verdict of the last clear one.
     let (slots, _) = exclusive_scan(&clear);
@@ -118,11 +111,12 @@ mod tests {
     use proptest::prelude::*;
 
     /// Walks along one line and remembers what it last showed.
-    fn walk(shares: &[f32], radius: usize) -> Vec<u32> {
+    fn walk(gaps: &[f32], radius: usize) -> Vec<u32> {
         let mut visible = None;
-        let seen = (0..shares.len()).map(|i| {
-            let near = &shares[i.saturating_sub(radius)..(i + radius + 1).min(shares.len())];
-            let (sum, count) = (near.iter().sum::<f32>(), near.len() as f32);
+        let seen = (0..gaps.len()).map(|i| {
+            let near = &gaps[i.saturating_sub(radius)..(i + radius + 1).min(gaps.len())];
+            let sum = near.iter().filter(|gap| **gap == 0.0).count() as f32;
+            let count = near.len() as f32;
             let now = match visible {
                 None => sum >= 0.5 * count,
                 Some(true) => sum >= 0.4 * count,
@@ -134,18 +128,29 @@ mod tests {
         seen.collect()
     }
 
-    /// Samples of lines with these numbers of samples, and where lines start.
-    fn lines(lengths: &[usize]) -> (Vec<SpineSample>, Vec<u32>) {
-        let (mut samples, mut starts) = (Vec::new(), vec![0]);
+    /// Lines with these numbers of samples, and the samples.
+    fn lines(lengths: &[usize]) -> (Vec<SampledLine>, Vec<SpineSample>) {
+        let (mut lines, mut samples) = (Vec::new(), Vec::new());
         for (line, length) in (0..).zip(lengths) {
             let sample = SpineSample {
                 line,
                 ..SpineSample::default()
             };
+            lines.push(SampledLine {
+                first: samples.len() as u32,
+                count: *length as u32,
+                ..SampledLine::default()
+            });
             samples.extend(vec![sample; *length]);
-            starts.push(samples.len() as u32);
         }
-        (samples, starts)
+        (lines, samples)
+    }
+
+    fn over(radius: u32) -> PartWidth {
+        PartWidth {
+            radius,
+            ..PartWidth::default()
+        }
     }
 
     proptest! {
@@ -154,27 +159,25 @@ mod tests {
         #[test]
         fn every_line_is_filtered_as_by_a_walk_along_it(
             lengths in proptest::collection::vec(0usize..200, 0..6), radius in 0u32..6,
-            quarters in proptest::collection::vec(0u8..5, 1200), mild: bool,
+            hidden in proptest::collection::vec(any::<bool>(), 1200),
         ) {
-            let (samples, starts) = lines(&lengths);
-            // Mild shares lie about one half, where memory decides.
-            let share = |q: &u8| f32::from(*q) * if mild { 0.03 } else { 0.25 } + if mild { 0.42 } else { 0.0 };
-            let shares: Vec<f32> = quarters.iter().take(samples.len()).map(share).collect();
-            let seen = visible_samples(radius, &samples, &starts, &shares);
-            let walked: Vec<u32> = starts
-                .windows(2)
-                .flat_map(|line| walk(&shares[line[0] as usize..line[1] as usize], radius as usize))
-                .collect();
+            let (lines, samples) = lines(&lengths);
+            let gap = |hidden: &bool| if *hidden { 2.5 } else { 0.0 };
+            let gaps: Vec<f32> = hidden.iter().take(samples.len()).map(gap).collect();
+            let seen = visible_samples(&over(radius), &lines, &samples, &gaps);
+            let range = |line: &SampledLine| line.first as usize..(line.first + line.count) as usize;
+            let walked = lines.iter().flat_map(|line| walk(&gaps[range(line)], radius as usize));
+            let walked: Vec<u32> = walked.collect();
             prop_assert_eq!(seen, walked);
         }
     }
 
     #[test]
-    fn any_radius_and_any_share_will_do() {
-        let (samples, starts) = lines(&[1, 0, 3]);
-        let shares = [f32::NAN, 1.0, f32::INFINITY, 1.0];
-        let seen = visible_samples(u32::MAX, &samples, &starts, &shares);
+    fn any_radius_and_any_gap_will_do() {
+        let (lines, samples) = lines(&[1, 0, 3]);
+        let gaps = [f32::INFINITY, 0.0, 3.0, f32::NAN];
+        let seen = visible_samples(&over(u32::MAX), &lines, &samples, &gaps);
         assert_eq!(seen, [0, 1, 1, 1]);
-        assert!(visible_samples(3, &[], &[0], &[]).is_empty());
+        assert!(visible_samples(&over(3), &[], &[], &[]).is_empty());
     }
 }
