@@ -21,6 +21,7 @@ pub mod pen;
 pub mod picture;
 pub mod reference;
 pub mod report;
+pub mod sampled;
 pub mod scaling;
 pub mod soup;
 pub mod stroke_file;

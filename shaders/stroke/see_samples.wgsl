@@ -66,6 +66,11 @@ fn pixel_coordinate(depth: f32) -> f32 {
     return select(pixel, pixel / (depth * depth), view.perspective > 0.5);
 }
 
+// Whether an id is that of a triangle, not of a hull or nothing.
+fn is_triangle(id: u32) -> bool {
+    return (id & HULL_BIT) == 0u && (id & ID_MASK) != 0u;
+}
+
 // The depth of what hides a sample, or NOTHING.
 fn hider_of(sample: SpineSample) -> f32 {
     if sample.half_width <= 0.0 || window.size.x * window.size.y == 0u { return NOTHING; }
@@ -74,35 +79,38 @@ fn hider_of(sample: SpineSample) -> f32 {
     let high = min(middle + vec2<u32>(1u), window.size - vec2<u32>(1u));
     let rounding = abs(plane_coordinate(view, sample.depth)) * DEPTH_ROUNDING;
 
-    // Look for triangles that cover the sample, and for whether all around lie in front of it.
+    // Of the triangles that cover the sample take the nearest in front of it.
     var is_covered = false;
-    var all_before = true;
     var hider = NOTHING;
-    var around = NOTHING;
+    var last = 0u;
     for (var y = low.y; y <= high.y; y++) {
         for (var x = low.x; x <= high.x; x++) {
-            let pixel = vec2<u32>(x, y);
-            let id = textureLoad(ids, pixel, 0).x;
-            if (id & ID_MASK) == 0u || (id & HULL_BIT) != 0u {
-                all_before = false;
-                continue;
-            }
-            let corners = triangles[(id & ID_MASK) - 1u].corners;
-            let met = met_by(sample, corners, sample.spine_px);
+            // Neighbours mostly show the same one.
+            let id = textureLoad(ids, vec2<u32>(x, y), 0).x;
+            if id == last || !is_triangle(id) { continue; }
+            last = id;
+            let met = met_by(sample, triangles[(id & ID_MASK) - 1u].corners, sample.spine_px);
             if met.covers {
                 is_covered = true;
                 if met.before > rounding + PLACE_ROUNDING * met.slope { hider = min(hider, met.depth); }
             }
-            let beside = met_by(sample, corners, frame_at(window, pixel));
-            let size = pixel_coordinate(beside.depth);
-            let clearly = CLEARLY_PX * max(min(beside.slope, STEEPEST * size), size);
-            all_before = all_before && beside.before > clearly;
-            around = min(around, beside.depth);
         }
     }
+    if is_covered { return hider; }
 
-    // One that covers it decides, before others that lie around it.
-    if !is_covered && all_before { return around; }
+    // Where none covers it, see whether all around lie clearly in front.
+    for (var y = low.y; y <= high.y; y++) {
+        for (var x = low.x; x <= high.x; x++) {
+            let id = textureLoad(ids, vec2<u32>(x, y), 0).x;
+            if !is_triangle(id) { return NOTHING; }
+            let at_px = frame_at(window, vec2<u32>(x, y));
+            let met = met_by(sample, triangles[(id & ID_MASK) - 1u].corners, at_px);
+            let size = pixel_coordinate(met.depth);
+            let clearly = CLEARLY_PX * max(min(met.slope, STEEPEST * size), size);
+            if !(met.before > clearly) { return NOTHING; }
+            hider = min(hider, met.depth);
+        }
+    }
     return hider;
 }
 

@@ -50,6 +50,8 @@ usage: cargo xtask COMMAND
   measure lines [ARGS]
                     measure line drawings, in release, and keep the tables; ARGS go to the
                     measuring program: --models DIR, --peers DIR, --only NAME, --quick
+  measure sights [ARGS]
+                    measure sampled sights against exact ones, in release, and keep the tables
   measure comic     measure comic pictures, in release, and keep the tables
   measure smoke     measure cartoon smoke, in release, and keep the tables
   measure outline-colour
@@ -98,6 +100,7 @@ fn dispatch(root: &Path, words: &[&str]) -> Option<Result<()>> {
         ["decoders"] => decoders::check(root),
         ["examples"] => examples::run(root),
         ["measure", "lines", rest @ ..] => measure::lines(root, rest),
+        ["measure", "sights", rest @ ..] => measure::sights(root, rest),
         ["measure", "comic"] => measure::comic(root),
         ["measure", "smoke"] => measure::smoke(root),
         ["measure", "outline-colour"] => measure::outline_color(root),

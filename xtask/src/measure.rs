@@ -11,6 +11,9 @@ use crate::packages::cargo;
 /// Where the tables of line drawings are kept.
 const LINES: &str = "benches/results/lines.md";
 
+/// Where the tables of sampled sights are kept.
+const SIGHTS: &str = "benches/results/sights.md";
+
 /// Where the tables of comic pictures are kept.
 const COMIC: &str = "benches/results/comic.md";
 
@@ -47,6 +50,16 @@ pub fn lines(root: &Path, arguments: &[&str]) -> Result<()> {
     let tables = tables_of(root, "lines", arguments)?;
     if keeps(arguments) {
         write_whole(&root.join(LINES), &tables)?;
+    }
+    Ok(())
+}
+
+/// Measures what sampled sights lose and wrongly show in release and prints the tables; those of a whole run become the
+/// results.
+pub fn sights(root: &Path, arguments: &[&str]) -> Result<()> {
+    let tables = tables_of(root, "lines", &[&["--sights"], arguments].concat())?;
+    if keeps(arguments) {
+        write_whole(&root.join(SIGHTS), &tables)?;
     }
     Ok(())
 }

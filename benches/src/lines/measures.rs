@@ -119,6 +119,17 @@ impl Measures {
         }
     }
 
+    /// Share of what must be drawn that has no ink, and ink where there should be none as a share of what is hidden, for
+    /// one of [`TOLERANCES_PX`].
+    pub fn faults(&self, reference: &Reference, tolerance: usize) -> [f64; 2] {
+        let false_px = (1.0 - self.precision[tolerance]) * self.ink_px;
+        let shown = match reference.hidden_px > 0.0 {
+            true => false_px / reference.hidden_px,
+            false => 0.0,
+        };
+        [1.0 - self.recall[tolerance], shown]
+    }
+
     /// Double lines beyond the reference's own.
     pub fn extra_doubles(&self) -> f64 {
         self.doubles - self.own_doubles
@@ -395,6 +406,7 @@ mod tests {
             pieces: (0..600).map(piece).collect(),
             runs: vec![run.clone()],
             joined: vec![run],
+            hidden_px: 0.0,
             drawn: Vec::new(),
         }
     }

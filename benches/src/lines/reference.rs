@@ -77,6 +77,8 @@ pub struct Reference {
     pub joined: Vec<Run>,
     /// The strokes of a pen that a picture of the runs takes: see [`drawn_strokes`].
     pub drawn: Vec<DrawnStroke>,
+    /// Length of what is hidden within the frame, in pixels.
+    pub hidden_px: f64,
 }
 
 impl Reference {
@@ -100,7 +102,10 @@ impl Reference {
 
         // Join the seen pieces to runs, and the runs to strokes of a pen.
         let by_chain = runs(&chain(soup, &edges, &seen, &lines), &lines, &samples);
+        let hidden = samples.iter().flatten();
+        let hidden = hidden.filter(|sample| sample.sight == Sight::Hidden);
         let mut reference = Self {
+            hidden_px: hidden.map(|sample| sample.length).sum(),
             pieces: pieces.collect(),
             joined: by_chain.iter().flat_map(|runs| joined(runs)).collect(),
             runs: by_chain.into_iter().flatten().collect(),

@@ -8,7 +8,7 @@ use npr_vector::stroke::{Drawing, Stroke, StrokePoint};
 use rayon::prelude::*;
 
 /// Greatest half width of ink, in pixels: wider lines cover any frame.
-const WIDEST: f64 = 1e5;
+pub(crate) const WIDEST: f64 = 1e5;
 
 /// How the image of a brush lies on strokes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,11 +40,11 @@ impl BrushLay {
 
 /// Where the image of a brush lies on one stroke.
 #[derive(Debug, Clone, Copy)]
-struct Laid {
-    flags: u32,
+pub(crate) struct Laid {
+    pub flags: u32,
     /// Place in the image at the start of the stroke, and how far it moves per pixel along it.
-    start: f64,
-    per_px: f64,
+    pub start: f64,
+    pub per_px: f64,
     /// Half width at which the brush is pressed down fully.
     full: f64,
     /// Length of a ring, in pixels; 0 of an open stroke.
@@ -54,7 +54,7 @@ struct Laid {
 impl Laid {
     /// The image begins anywhere and on either side, by the stroke's id, so that strokes are not alike; on a ring it
     /// closes.
-    fn new(stroke: &Stroke, lay: BrushLay, full: f64) -> Self {
+    pub fn new(stroke: &Stroke, lay: BrushLay, full: f64) -> Self {
         let length = stroke.length();
         let first = stroke.points.first().map_or(0.0, |point| point.u);
         let chance = hash(stroke.id as u32, (stroke.id >> 32) as u32, 0);

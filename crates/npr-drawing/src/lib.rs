@@ -50,6 +50,7 @@ mod page;
 pub mod pdf;
 pub mod plot;
 pub mod pressure;
+pub mod sampled;
 mod seed;
 pub mod stamps;
 pub mod svg;

@@ -153,7 +153,7 @@ fn thin(stroke: &mut Stroke, length: f64, reach: [f64; 2], taper: &Taper) {
 const TOO_NEAR_PX: f64 = 1e-3;
 
 /// For the start and the end of every stroke whether a visible line or the border of the picture meets it.
-fn met_ends(strokes: &[Stroke], lengths: &[f64], size: [u32; 2]) -> Vec<[bool; 2]> {
+pub(crate) fn met_ends(strokes: &[Stroke], lengths: &[f64], size: [u32; 2]) -> Vec<[bool; 2]> {
     // Note those that lines pass.
     let is_met: Vec<[AtomicBool; 2]> = strokes.iter().map(|_| Default::default()).collect();
     meetings(strokes, lengths, 1.0).for_each(|Meeting { stroke, side, .. }| {

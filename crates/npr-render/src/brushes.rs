@@ -97,6 +97,12 @@ impl Brushes {
         Ok(brushes)
     }
 
+    /// Whether any of them draws by stamps.
+    pub fn has_stamps(&self) -> bool {
+        let mut lays = self.of_parts.iter();
+        lays.any(|lay| matches!(lay.images, Images::Stamps(_)))
+    }
+
     /// How a brush lies on a stroke, where the base width is `base_px`.
     pub fn lay_of(&self, stroke: &Stroke, base_px: f32) -> BrushLay {
         let of_part = self.of_parts.get(stroke.surface as usize);

@@ -10,11 +10,12 @@ use crate::features::line_features::LineFeatures;
 use crate::features::screen_lines::ScreenLines;
 use crate::features::shadows::Shadows;
 use crate::features::smoke::{Measure, SmokeMoment, SmokePasses, hang_sheet};
-use crate::features::strokes::StrokePasses;
+use crate::features::strokes::{self, FoundStrokes, StrokePasses};
 use crate::frame::Frame;
 use crate::frame_graph::{Counts, FrameGraph, Grids, Layers, write};
 use crate::light::{self, ChosenLights};
 use crate::line_colors::{is_any_painted, is_any_width_lit};
+use crate::lines::Expression;
 use crate::look::{self, StyledModel};
 use crate::model::Model;
 use crate::options::RendererOptions;
@@ -34,7 +35,6 @@ use npr_style::compose::Compose;
 use npr_style::lighting::LightSource;
 use npr_stylesheet::Style;
 use npr_vector::screen::residual::LARGEST_PX;
-use npr_vector::stroke::Drawing;
 
 /// Frame pixels around a tile beyond the reach of its lines: detection looks at neighbours.
 const TILE_ROOM: u32 = 8;
@@ -57,6 +57,8 @@ pub(crate) struct Needs {
     tiles: Tiles,
     pub grids: Grids,
     beams: bool,
+    /// Number of samples that there is room for where passes find what is seen of strokes; else 0.
+    sample_room: usize,
     /// Whether layers for compositing are made.
     layers: bool,
 }
@@ -165,6 +167,13 @@ impl Needs {
         };
         measure.size = grids.output;
 
+        // Settle how it is found what is seen of strokes.
+        let is_tiled = tiles.kept != tiles.frame;
+        let mut notices = Vec::new();
+        let drawn = (style, &styled.brushes);
+        let sample_room = strokes::sample_room(drawn, options, is_tiled, &mut notices);
+        styled.inked.notices.extend(notices);
+
         // Decide which layers the last pass lays over surfaces.
         let beams = beams::needs(&styled.parts);
         features.paints = is_any_painted(&styled.parts);
@@ -184,6 +193,7 @@ impl Needs {
             tiles,
             grids,
             beams,
+            sample_room,
             layers: options.layers,
         }
     }
@@ -283,7 +293,7 @@ impl Passes {
             StrokePasses::plan(
                 &mut frame,
                 targets,
-                styled.brushes.all.len(),
+                (styled.brushes.all.len(), needs.sample_room),
                 !features.ribbons,
             )
         });
@@ -388,6 +398,11 @@ impl FramePlan {
         FrameRenderer::new(self, model, session)
     }
 
+    /// Whether passes find what is seen of strokes.
+    pub fn leaves_strokes_open(&self) -> bool {
+        self.needs.sample_room > 0
+    }
+
     /// The graph of the frame.
     pub fn graph(&self) -> &Graph {
         &self.passes.frame.graph
@@ -487,7 +502,7 @@ impl<S: Session> FrameRenderer<S> {
         &mut self,
         model: &Model,
         camera: &Camera,
-        strokes: &[Drawing],
+        strokes: &FoundStrokes,
     ) -> Result<View, RenderError> {
         let bounds = self.bounds(model);
         let FramePlan {
@@ -557,13 +572,16 @@ impl<S: Session> FrameRenderer<S> {
         }
         self.turn_strokes(model, &light::strongest(&lights), camera)?;
         let FramePlan {
+            style,
             passes,
             needs,
             graph_limit,
             ..
         } = &mut self.plan;
         if let Some(inked) = &passes.strokes {
-            let (graph, seen) = (&mut passes.frame.graph, (&view, strokes));
+            let px = [size[1] as f32, dpi, size[1] as f32 / model.radius()];
+            let width = Expression::part_width(style, px);
+            let (graph, seen) = (&mut passes.frame.graph, (&view, strokes, &width));
             let brushes = (&needs.styled.brushes, base_px);
             inked.upload_view(&mut self.session, graph, seen, brushes, *graph_limit)?;
         }
@@ -618,7 +636,7 @@ impl<S: Session> FrameRenderer<S> {
         &mut self,
         model: &Model,
         camera: &Camera,
-        strokes: &[Drawing],
+        strokes: &FoundStrokes,
     ) -> Result<Aimed, RenderError> {
         let view = self.aim(model, camera, strokes)?;
         let mut aimed = Aimed {

@@ -19,6 +19,7 @@ mod view;
 mod welded;
 mod widths;
 
+pub(crate) use expression::Expression;
 pub use model::LineModel;
 pub use npr_core::line_kind::KindSet;
 pub use npr_core::line_source::LineSource;

@@ -5,7 +5,7 @@ use crate::features::blending::Blending;
 use crate::features::compositing::stroke_numbers;
 use crate::features::lettering::Lettering;
 use crate::features::speed_lines::SpeedLines;
-use crate::features::strokes::{self, StrokeReport};
+use crate::features::strokes::{self, FoundStrokes, StrokeReport};
 use crate::frame::Frame;
 use crate::frame_graph::pixel_count;
 use crate::frame_renderer::{Aimed, FramePlan, FrameRenderer};
@@ -23,7 +23,6 @@ use npr_core::camera::Camera;
 use npr_gpu::cost::PassCost;
 use npr_gpu::engine::{Engine, IN_FLIGHT};
 use npr_stylesheet::Style;
-use npr_vector::stroke::Drawing;
 use std::borrow::Cow;
 
 /// The style that frames without a line model are drawn in, with what they tell where it is another one.
@@ -268,8 +267,8 @@ impl<'a> Renderer<'a> {
             "the frame needs all of its pixels at once"
         );
         self.forget_begun();
-        let (drawings, strokes) = self.find_strokes(camera)?;
-        let mut aimed = self.frames.begin(self.model, camera, &drawings)?;
+        let (found, strokes) = self.find_strokes(camera)?;
+        let mut aimed = self.frames.begin(self.model, camera, &found)?;
         let [width, height] = self.frames.plan.options.size;
         let tiles = *self.frames.plan.tiles();
         let mut reported = Frame::new([width, 0]);
@@ -321,18 +320,18 @@ impl<'a> Renderer<'a> {
 
     /// Starts to draw the model, and the other look of a blend, as a camera sees it.
     pub(crate) fn begin(&mut self, camera: &Camera) -> Result<Begun, RenderError> {
-        let (drawings, strokes) = self.find_strokes(camera)?;
-        let aimed = self.frames.begin(self.model, camera, &drawings)?;
+        let (found, strokes) = self.find_strokes(camera)?;
+        let aimed = self.frames.begin(self.model, camera, &found)?;
         let other = match &mut self.blended {
             Some((other, _)) => Some(Box::new(other.begin(camera)?)),
             None => None,
         };
         let options = &self.frames.plan.options;
-        let stroke_numbers = match options.layers && !drawings.is_empty() {
+        let stroke_numbers = match options.layers && !found.seen.is_empty() {
             true => {
                 let base_px = self.frames.base_px(&aimed.view, camera, self.model);
                 let inked = (self.frames.plan.styled(), base_px);
-                stroke_numbers(drawings, &aimed.view, inked, options.size)
+                stroke_numbers(found.seen, &aimed.view, inked, options.size)
             }
             false => Vec::new(),
         };
@@ -396,9 +395,11 @@ impl<'a> Renderer<'a> {
     fn find_strokes(
         &mut self,
         camera: &Camera,
-    ) -> Result<(Vec<Drawing>, StrokeReport), RenderError> {
+    ) -> Result<(FoundStrokes, StrokeReport), RenderError> {
         let plan = &self.frames.plan;
-        strokes::find(self.lines.as_mut(), camera, (&plan.style, &plan.options))
+        let leaves_open = plan.leaves_strokes_open();
+        let asked = (&plan.style, &plan.options);
+        strokes::find(self.lines.as_mut(), camera, asked, leaves_open)
     }
 
     /// Adds what is drawn over a whole frame: speed lines, the other look, words.

@@ -68,6 +68,17 @@ pub enum CreaseFrom {
     Faces,
 }
 
+/// How it is found what is seen of the strokes of a frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum LineVisibility {
+    /// By the shapes, for every place of a line: the best for stills.
+    #[default]
+    Exact,
+    /// By the frame's own pixels, a sample of the line at each: for real time, as a device does it by itself.
+    Sampled,
+}
+
 style_table! {
 /// Which lines are drawn, and with what.
 pub struct Line {
@@ -86,6 +97,9 @@ pub struct Line {
     pub crease_angle_deg: f32 = CREASE_ANGLE_DEG,
     /// What that angle lies between; default `normals`, so that smooth shading hides the folds of a coarse mesh.
     pub crease_from: CreaseFrom = CreaseFrom::default(),
+    /// How it is found what is seen of strokes; default `exact`. `sampled` is faster where lines are many, and leaves
+    /// lines side by side as they are. Dashes, overshoot, stamps, method `potrace`, layers and tiles need `exact`.
+    pub visibility: LineVisibility = LineVisibility::default(),
     /// Angle, in degrees, from which a stroke is cut where it turns sharply in the picture, 10..180; default 180,
     /// never. 60 draws a box in strokes along its sides, each with the brush's own ends. Of drawings as curves only.
     #[schemars(range(min = 10.0, max = 180.0))]

@@ -7,4 +7,3 @@ mod contour_growth;
 mod curves_in_frames;
 mod expression;
 mod outlines;
-mod sampled_visibility;

@@ -65,7 +65,7 @@ pub fn judge(arguments: &Arguments, strokes: &Path, model: &Path) -> Outcome<()>
 }
 
 /// Files to measure, each with whether it lies in the unit ball.
-fn files(arguments: &Arguments) -> Vec<(PathBuf, bool)> {
+pub fn files(arguments: &Arguments) -> Vec<(PathBuf, bool)> {
     let models = arguments.models.clone().unwrap_or_else(shared_models);
     let shared = MODELS.iter().map(|name| (models.join(name), false));
     let peers = arguments.peers.iter().flat_map(|folder| {

@@ -8,6 +8,7 @@ use crate::Outcome;
 pub const USAGE: &str = "\
 usage: lines [--models DIR] [--peers DIR] [--only NAME] [--method NAME] [--quick] [--pictures DIR]
        lines --pilot [--models DIR] [--only NAME | --model SCENE] [--method NAME] [--pictures DIR]
+       lines --sights [--models DIR] [--peers DIR] [--only NAME]
        lines --strokes FILE.json --model SCENE [--eye X,Y,Z --target X,Y,Z --fov DEG] [--crease DEG]
 
   --models DIR    folder of the shared models
@@ -15,6 +16,7 @@ usage: lines [--models DIR] [--peers DIR] [--only NAME] [--method NAME] [--quick
   --only NAME     only models whose name holds NAME
   --method NAME   only ways whose name holds NAME
   --pilot         the views that the published path's emulation was measured in
+  --sights        what sampled sights lose and wrongly show
   --quick         one view, small models, few runs
   --pictures DIR  writes an SVG of every view and way: the reference's runs, drawn runs, our strokes with doubles marked
   --strokes FILE  judges the lines that any program wrote instead of drawing";
@@ -32,6 +34,8 @@ pub struct Arguments {
     pub method: Option<String>,
     /// The views of the published path's emulation.
     pub pilot: bool,
+    /// What sampled sights lose and wrongly show.
+    pub sights: bool,
     /// One view, small models, few runs.
     pub quick: bool,
     /// Folder for pictures of every view and way.
@@ -64,6 +68,10 @@ pub fn parse(mut words: impl Iterator<Item = String>) -> Outcome<Arguments> {
     while let Some(word) = words.next() {
         if word == "--pilot" {
             arguments.pilot = true;
+            continue;
+        }
+        if word == "--sights" {
+            arguments.sights = true;
             continue;
         }
         if word == "--quick" {

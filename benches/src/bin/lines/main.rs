@@ -11,6 +11,7 @@ mod growth;
 mod known;
 mod pilot;
 mod preparation;
+mod sights;
 mod way;
 
 use std::error::Error;
@@ -27,6 +28,7 @@ fn main() -> Outcome<()> {
     let arguments = arguments::parse(std::env::args().skip(1))?;
     match (&arguments.strokes, &arguments.model) {
         (None, None) if arguments.pilot => pilot::pilot(&arguments),
+        (None, None) if arguments.sights => sights::sights(&arguments),
         (Some(strokes), Some(model)) => agreement::judge(&arguments, strokes, model),
         (None, None) => report(&arguments),
         _ => Err(arguments::USAGE.into()),

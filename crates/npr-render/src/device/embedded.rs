@@ -1,6 +1,7 @@
 //! A drawing inside the frames of another wgpu program.
 
 use crate::error::RenderError;
+use crate::features::strokes::FoundStrokes;
 use crate::frame_renderer::{FramePlan, FrameRenderer};
 use crate::look::StyledModel;
 use crate::model::Model;
@@ -176,7 +177,9 @@ impl EmbeddedRenderer {
     ) -> Result<(), RenderError> {
         // Hand over how the host sees the scene.
         let size = self.frames.plan.options.size;
-        let view = self.frames.aim(&self.model, &seen.camera, &[])?;
+        let view = self
+            .frames
+            .aim(&self.model, &seen.camera, &FoundStrokes::default())?;
         check_view(&view, &seen.clip_from_world, self.model.bounds())?;
         self.frames.aim_tile(&view, [0; 2])?;
         let host_from_frame = host_from_frame(&view, &seen.clip_from_world);

@@ -9,20 +9,39 @@ use crate::lines::{LineOptions, LineRenderer};
 use crate::options::RendererOptions;
 use npr_core::budget::Budget;
 use npr_core::camera::Camera;
+use npr_core::line_source::LineSource;
 use npr_core::window::View;
 use npr_drawing::ink::ink_points;
+use npr_drawing::sampled::{Sampling, most_strokes, sample_strokes};
+use npr_gpu::curves::sampling::{SampledFrame, add_sampling};
 use npr_gpu::engine::{EngineError, PassTime, Session};
 use npr_gpu::graph::{Graph, ResourceId, WorkSize};
 use npr_gpu::pass::Work;
 use npr_gpu::passes::stroke::DRAW_STROKES;
-use npr_stylesheet::Style;
+use npr_stylesheet::{LineVisibility, Style};
 use npr_vector::brush::Brush;
 use npr_vector::ink_point::InkPoint;
 use npr_vector::rank::work::Arguments;
+use npr_vector::sampled::{PartWidth, SampledLine, SpineSample};
 use npr_vector::stroke::{Drawing, Stroke};
 
 /// Points that there is room for at first; frames with more of them make more room.
 const FIRST_ROOM: usize = 4096;
+
+/// Pixels of a frame for each sample of its lines: of a frame full of lines one in thirty pixels lies on one.
+const PIXELS_PER_SAMPLE: usize = 16;
+
+/// Least number of samples that there is room for.
+const LEAST_SAMPLES: usize = 1 << 14;
+
+/// Strokes that a camera sees, or may see.
+#[derive(Debug, Default)]
+pub(crate) struct FoundStrokes {
+    /// What is seen of strokes, by exact sights.
+    pub seen: Vec<Drawing>,
+    /// Strokes whose passes find out what is seen of them.
+    pub open: Option<Drawing>,
+}
 
 /// How strokes were found.
 #[derive(Debug, Default)]
@@ -39,34 +58,81 @@ impl StrokeReport {
     }
 }
 
+/// Number of samples that a frame has room for where its style asks for sampled sights and nothing needs exact ones;
+/// 0 where all sights are exact. What needs them is told.
+pub(crate) fn sample_room(
+    (style, brushes): (&Style, &Brushes),
+    options: &RendererOptions,
+    is_tiled: bool,
+    notices: &mut Vec<String>,
+) -> usize {
+    if style.line.visibility != LineVisibility::Sampled || !style.has_curves() {
+        return 0;
+    }
+    let hand = &style.line.hand;
+    let moves_ends = hand.overshoot.value > 0.0 || hand.undershoot.value > 0.0;
+    let reasons = [
+        (!style.line.dash.pattern.is_empty(), "dashes"),
+        (moves_ends, "overshoot"),
+        (brushes.has_stamps(), "stamps"),
+        (
+            !style.curve_sources().eq([LineSource::Edges]),
+            "method potrace",
+        ),
+        (options.layers, "layers"),
+        (is_tiled, "frames in tiles"),
+    ];
+    let needs: Vec<&str> = reasons
+        .iter()
+        .filter(|(is_met, _)| *is_met)
+        .map(|(_, what)| *what)
+        .collect();
+    if !needs.is_empty() {
+        let verb = if needs.len() == 1 { "asks" } else { "ask" };
+        let what = needs.join(", ");
+        notices.push(format!(
+            "line.visibility is exact in this frame: {what} {verb} for it"
+        ));
+        return 0;
+    }
+    let pixels = options.size[0] as usize * options.size[1] as usize;
+    (pixels / PIXELS_PER_SAMPLE)
+        .max(LEAST_SAMPLES)
+        .next_multiple_of(4)
+}
+
 /// Finds the strokes that a camera sees of the parts whose method asks for them, and tells how; without a line model
-/// there is a notice instead.
+/// there is a notice instead. Where `leaves_open`, passes will find out what is seen.
 pub(crate) fn find(
     lines: Option<&mut LineRenderer<'_>>,
     camera: &Camera,
     (style, options): (&Style, &RendererOptions),
-) -> Result<(Vec<Drawing>, StrokeReport), RenderError> {
-    let (mut drawings, mut report) = (Vec::new(), StrokeReport::default());
+    leaves_open: bool,
+) -> Result<(FoundStrokes, StrokeReport), RenderError> {
+    let (mut found, mut report) = (FoundStrokes::default(), StrokeReport::default());
     if !style.has_curves() {
-        return Ok((drawings, report));
+        return Ok((found, report));
     }
     let Some(lines) = lines else {
         let notice = "lines of method potrace are left out: no line model was given";
         report.notices.push(notice.to_owned());
-        return Ok((drawings, report));
+        return Ok((found, report));
     };
     let of_style = LineOptions {
         dpi: options.dpi,
         ..LineOptions::of_style(style, options.size)
     };
     for method in style.curve_sources() {
-        let of_method = LineOptions { method, ..of_style };
-        let drawing = lines.draw_curves(camera, style, &of_method, &options.pictures)?;
+        let of_method = (&LineOptions { method, ..of_style }, leaves_open);
+        let drawing = lines.draw_curves(camera, style, of_method, &options.pictures)?;
         report.times.extend_from_slice(lines.times());
         report.notices.extend_from_slice(&drawing.notices);
-        drawings.push(drawing);
+        match leaves_open {
+            true => found.open = Some(drawing),
+            false => found.seen.push(drawing),
+        }
     }
-    Ok((drawings, report))
+    Ok((found, report))
 }
 
 /// The points of the strokes that a camera sees, in their order, with brushes that lie on them by the base width.
@@ -81,39 +147,83 @@ pub(crate) fn points_of(
     drawings.iter().flat_map(points).collect()
 }
 
-/// The pass that inks strokes, and what the host fills for it.
+/// The passes that ink strokes, and what the host fills for them.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct StrokePasses {
-    points: ResourceId,
     brushes: ResourceId,
-    /// How many vertices are drawn.
-    size: ResourceId,
+    input: Input,
+}
+
+/// What strokes are handed over as.
+#[derive(Debug, Clone, Copy)]
+enum Input {
+    /// Points of what is seen, and how many vertices are drawn.
+    Points {
+        points: ResourceId,
+        size: ResourceId,
+    },
+    /// Samples of all lines, of which passes make points.
+    Samples {
+        samples: ResourceId,
+        lines: ResourceId,
+        width: ResourceId,
+    },
 }
 
 impl StrokePasses {
-    /// Adds the pass that inks strokes with `brush_count` brushes into a picture and its keys, which are cleared before
-    /// where `clears`.
+    /// Adds the passes that ink strokes with `brush_count` brushes into a picture and its keys, which are cleared
+    /// before where `clears`; for more than no samples those that find out what is seen of so many.
     pub fn plan(
         frame: &mut FrameGraph,
         targets: [ResourceId; 2],
-        brush_count: usize,
+        (brush_count, sample_room): (usize, usize),
         clears: bool,
     ) -> Self {
+        let brushes = frame.graph.buffer::<Brush>("brushes", brush_count.max(1));
+        let (input, points, size) = match sample_room {
+            0 => Self::plan_points(frame),
+            _ => Self::plan_samples(frame, sample_room),
+        };
+        let bound = [frame.output_window, points, brushes, frame.texels];
+        frame
+            .graph
+            .draw_sized(&DRAW_STROKES, (&bound, &targets), clears, size);
+        Self { brushes, input }
+    }
+
+    fn plan_points(frame: &mut FrameGraph) -> (Input, ResourceId, Option<WorkSize>) {
         let graph = &mut frame.graph;
         let points = graph.buffer::<InkPoint>("stroke points", FIRST_ROOM);
-        let brushes = graph.buffer::<Brush>("brushes", brush_count.max(1));
         let size = graph.buffer::<Arguments>("size of strokes", 1);
         let drawn = WorkSize {
             arguments: size,
             index: 0,
         };
-        let bound = [frame.output_window, points, brushes, frame.texels];
-        graph.draw_sized(&DRAW_STROKES, (&bound, &targets), clears, Some(drawn));
-        Self {
-            points,
-            brushes,
-            size,
-        }
+        (Input::Points { points, size }, points, Some(drawn))
+    }
+
+    fn plan_samples(frame: &mut FrameGraph, room: usize) -> (Input, ResourceId, Option<WorkSize>) {
+        let graph = &mut frame.graph;
+        let samples = graph.buffer::<SpineSample>("samples of lines", room);
+        let lines = graph.buffer::<SampledLine>("sampled lines", most_strokes(room) + 1);
+        let width = graph.uniform::<PartWidth>("width of parts");
+        let on = SampledFrame {
+            view: frame.view,
+            window: frame.color_window,
+            ids: frame.ids,
+            posed: frame.posed,
+            triangles: frame.triangles,
+            samples,
+            lines,
+            width,
+        };
+        let points = add_sampling(&mut frame.graph, &on);
+        let input = Input::Samples {
+            samples,
+            lines,
+            width,
+        };
+        (input, points, None)
     }
 
     /// Hands over the brushes.
@@ -124,40 +234,77 @@ impl StrokePasses {
         }
     }
 
-    /// Hands over the strokes that a camera sees, with brushes that lie on them by the base width.
+    /// Hands over the strokes that a camera sees, or may see, with brushes that lie on them by the base width.
     ///
-    /// Where there is less room than they take, the graph and its session get more, up to `graph_limit` bytes in all.
+    /// Where there is less room than points take, the graph and its session get more, up to `graph_limit` bytes in all;
+    /// samples lie farther apart where lines are many.
     pub fn upload_view(
         &self,
         session: &mut dyn Session,
         graph: &mut Graph,
-        (view, drawings): (&View, &[Drawing]),
+        (view, found, part_width): (&View, &FoundStrokes, &PartWidth),
         brushes: (&Brushes, f32),
         graph_limit: u64,
     ) -> Result<(), RenderError> {
-        let points = points_of(drawings, view, brushes);
+        match self.input {
+            Input::Points { points, size } => {
+                let inked = points_of(&found.seen, view, brushes);
+                make_room(session, graph, (points, inked.len()), graph_limit)?;
 
-        // Make room for more than there are: the next view may have a few more.
-        let room = graph.element_count(self.points);
-        if points.len() > room {
-            let count = points.len() + points.len() / 2;
-            let mut budget = Budget::new(graph_limit);
-            budget.take("the plan of the frame", graph.planned_bytes() as usize, 1)?;
-            budget.take(
-                "the strokes of the frame",
-                count - room,
-                size_of::<InkPoint>(),
-            )?;
-            session.grow(self.points, count)?;
-            graph.grow(self.points, count);
+                // Write them, and how many there are.
+                let Work::Draw { vertices, .. } = DRAW_STROKES.work else {
+                    unreachable!("strokes are drawn");
+                };
+                write(session, points, &inked)?;
+                let count = Arguments::of_vertices(inked.len() as u32 * vertices);
+                Ok(write(session, size, &[count])?)
+            }
+            Input::Samples {
+                samples,
+                lines,
+                width,
+            } => {
+                let nothing = Drawing::default();
+                let drawing = found.open.as_ref().unwrap_or(&nothing);
+                let (brushes, base_px) = brushes;
+                let sampling = Sampling {
+                    view,
+                    lay_of: &|stroke: &Stroke| brushes.lay_of(stroke, base_px),
+                };
+                let room = graph.element_count(samples);
+                let Some(sampled) = sample_strokes(drawing, &sampling, room) else {
+                    return Err(RenderError::TooMany {
+                        what: "sampled lines",
+                        limit: most_strokes(room) as u64,
+                    });
+                };
+                write(session, samples, &sampled.samples)?;
+                write(session, lines, &sampled.lines)?;
+                Ok(write(session, width, &[*part_width])?)
+            }
         }
-
-        // Write them, and how many there are.
-        let Work::Draw { vertices, .. } = DRAW_STROKES.work else {
-            unreachable!("strokes are drawn");
-        };
-        write(session, self.points, &points)?;
-        let count = Arguments::of_vertices(points.len() as u32 * vertices);
-        Ok(write(session, self.size, &[count])?)
     }
+}
+
+/// Makes room for points, and for more than there are: the next view may have a few more.
+fn make_room(
+    session: &mut dyn Session,
+    graph: &mut Graph,
+    (points, needed): (ResourceId, usize),
+    graph_limit: u64,
+) -> Result<(), RenderError> {
+    let room = graph.element_count(points);
+    if needed > room {
+        let count = needed + needed / 2;
+        let mut budget = Budget::new(graph_limit);
+        budget.take("the plan of the frame", graph.planned_bytes() as usize, 1)?;
+        budget.take(
+            "the strokes of the frame",
+            count - room,
+            size_of::<InkPoint>(),
+        )?;
+        session.grow(points, count)?;
+        graph.grow(points, count);
+    }
+    Ok(())
 }

@@ -5,13 +5,38 @@ use crate::error::RenderError;
 use npr_drawing::dash::{Dash, cut_to_dashes};
 use npr_drawing::hand::{Hand, draw_by_hand};
 use npr_drawing::overshoot::{Overshoot, move_ends};
-use npr_drawing::pressure::{Pressure, press_strokes};
+use npr_drawing::pressure::{Curve, Pressure, press_strokes};
 use npr_drawing::taper::{Taper, taper_strokes};
-use npr_stylesheet::{Length, Style, TaperEnds};
+use npr_stylesheet::{Length, Style, TaperEnds, WidthStop};
+use npr_vector::mesh_lines::run::SPECK_PX;
+use npr_vector::sampled::PartWidth;
 use npr_vector::stroke::Stroke;
 
+/// Samples on either side that decide with one whether it is seen.
+const SAMPLE_RADIUS: u32 = 1;
+
+/// A curve through the stops of a style.
+pub(super) fn curve_of(stops: &[WidthStop]) -> Curve {
+    let stops = stops
+        .iter()
+        .map(|stop| [stop.at, stop.factor].map(f64::from));
+    Curve::new(&stops.collect::<Vec<_>>())
+}
+
+/// How strokes thin out in a style, with lengths in pixels as `px` resolves them.
+fn taper_of(style: &Style, px: &dyn Fn(Length) -> f64) -> Taper {
+    let width = &style.line.width;
+    Taper {
+        lengths_px: [width.taper.start, width.taper.end].map(px),
+        short_px: px(width.short),
+        share: f64::from(width.taper.share),
+        tip: f64::from(width.taper.tip),
+        at_all_ends: width.taper.ends == TaperEnds::All,
+    }
+}
+
 /// What a style makes of strokes in a picture.
-pub(super) struct Expression {
+pub(crate) struct Expression {
     overshoot: Overshoot,
     pressure: Pressure,
     taper: Taper,
@@ -23,20 +48,14 @@ impl Expression {
     /// That of a style in a view with its own pressure, with lengths in pixels as `px` resolves them.
     pub fn new(style: &Style, [height, dpi, world]: [f32; 3], pressure: Pressure) -> Self {
         let px = |length: Length| f64::from(length.to_px(height, dpi, world));
-        let (width, hand) = (&style.line.width, &style.line.hand);
+        let hand = &style.line.hand;
         Self {
             overshoot: Overshoot {
                 beyond_px: px(hand.overshoot),
                 short_px: px(hand.undershoot),
             },
             pressure,
-            taper: Taper {
-                lengths_px: [width.taper.start, width.taper.end].map(px),
-                short_px: px(width.short),
-                share: f64::from(width.taper.share),
-                tip: f64::from(width.taper.tip),
-                at_all_ends: width.taper.ends == TaperEnds::All,
-            },
+            taper: taper_of(style, &px),
             hand: Hand {
                 wobble_px: px(hand.wobble),
                 wave_px: px(hand.wave),
@@ -47,6 +66,49 @@ impl Expression {
                 pattern_px: style.line.dash.pattern.iter().copied().map(px).collect(),
                 fit: style.line.dash.fit,
             },
+        }
+    }
+
+    /// What of it does not depend on what is seen of strokes: width over depth, and the hand.
+    pub fn before_sight(self) -> Self {
+        let none = Taper {
+            lengths_px: [0.0; 2],
+            short_px: 0.0,
+            ..self.taper
+        };
+        Self {
+            overshoot: Overshoot {
+                beyond_px: 0.0,
+                short_px: 0.0,
+            },
+            pressure: Pressure {
+                along: Curve::default(),
+                ..self.pressure
+            },
+            taper: none,
+            hand: self.hand,
+            dash: Dash {
+                pattern_px: Vec::new(),
+                ..self.dash
+            },
+        }
+    }
+
+    /// The rest of it: how wide the parts of lines are that are seen, found on samples.
+    pub fn part_width(style: &Style, px: [f32; 3]) -> PartWidth {
+        let [height, dpi, world] = px;
+        let taper = taper_of(style, &|length| f64::from(length.to_px(height, dpi, world)));
+        let pressure = curve_of(&style.line.width.pressure);
+        let along = |stop: usize| pressure.at(stop as f64 / 31.0) as f32;
+        PartWidth {
+            along: std::array::from_fn(|i| std::array::from_fn(|j| along(4 * i + j))),
+            taper_px: taper.lengths_px.map(|px| px as f32),
+            taper_share: taper.share as f32,
+            tip: taper.tip as f32,
+            short_px: taper.short_px as f32,
+            speck_px: SPECK_PX as f32,
+            at_all_ends: u32::from(taper.at_all_ends),
+            radius: SAMPLE_RADIUS,
         }
     }
 

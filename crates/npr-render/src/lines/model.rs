@@ -2,7 +2,7 @@
 
 use super::assembly::Assembly;
 use super::colors::{ColorInput, StrokeColors};
-use super::expression::Expression;
+use super::expression::{Expression, curve_of};
 use super::finder::{Finder, OnProcessor};
 use super::options::{LineModelOptions, LineOptions};
 use super::paint::Paint;
@@ -29,11 +29,11 @@ use npr_core::camera::Camera;
 use npr_core::crease::CreaseFrom;
 use npr_core::geometry::Part;
 use npr_core::line_source::LineSource;
-use npr_drawing::pressure::{Curve, Pressure};
+use npr_drawing::pressure::Pressure;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_mesh::shape::Preparation;
 use npr_scene::Scene;
-use npr_stylesheet::{DepthSpace, Look, Style, WidthStop};
+use npr_stylesheet::{DepthSpace, Look, Style};
 use npr_vector::mesh_lines::bvh::FaceTree;
 use npr_vector::mesh_lines::contour::EdgeContours;
 use npr_vector::mesh_lines::draw::{
@@ -103,6 +103,8 @@ struct Wanted<'a> {
     pictures: &'a BTreeMap<String, Picture>,
     /// A picture of the scene without lines and background, for lines whose colours follow it.
     behind: Option<&'a Frame>,
+    /// Whether it is left open what is seen of lines, and with that where they thin out.
+    is_open: bool,
 }
 
 impl LineModel {
@@ -265,16 +267,18 @@ impl LineModel {
             smoke: self.smoke.as_ref(),
             pictures: &self.pictures,
             behind,
+            is_open: false,
         };
         self.draw_some(&wanted, find, |_| true)
     }
 
     /// The lines of the parts whose style asks for curves that are found as `options` says; smoke hides none of them.
+    /// Where it `is_open` what is seen of them, all are there.
     pub(crate) fn draw_curves(
         &self,
         camera: &Camera,
         style: &Style,
-        options: &LineOptions,
+        (options, is_open): (&LineOptions, bool),
         pictures: &BTreeMap<String, Picture>,
         find: &mut dyn Finder,
     ) -> Result<Drawing, RenderError> {
@@ -286,6 +290,7 @@ impl LineModel {
             smoke: None,
             pictures,
             behind: None,
+            is_open,
         };
         self.draw_some(&wanted, find, is_curve)
     }
@@ -304,6 +309,7 @@ impl LineModel {
             smoke,
             pictures,
             behind,
+            is_open,
         } = *wanted;
         check_size(options.size)?;
         let is_empty = self.points.is_empty();
@@ -353,6 +359,7 @@ impl LineModel {
             smoke: smoke_lines.as_ref(),
             colors: colors.as_ref(),
             changes: stroke_contrast.is_some(),
+            is_open,
         };
         let paint = Paint::new(&self.parts, style, has_lines);
         let ViewStrokes {
@@ -379,6 +386,10 @@ impl LineModel {
         let is_of_part = |stroke: &Stroke| (stroke.surface as usize) < self.parts.len();
         let pressure = self.pressure_of(style, &projector);
         let expression = Expression::new(style, self.px(options), pressure);
+        let expression = match is_open {
+            true => expression.before_sight(),
+            false => expression,
+        };
         expression.draw(&mut strokes, options.size, is_of_part)?;
         check_points(&strokes)?;
         let mut surfaces = paint.into_surfaces(&self.parts);
@@ -405,12 +416,6 @@ impl LineModel {
     /// What strokes are pressed by in a view.
     fn pressure_of(&self, style: &Style, projector: &Projector) -> Pressure {
         let width = &style.line.width;
-        let curve = |stops: &[WidthStop]| {
-            let stops = stops
-                .iter()
-                .map(|stop| [stop.at, stop.factor].map(f64::from));
-            Curve::new(&stops.collect::<Vec<_>>())
-        };
         let depth = &width.depth;
         let counted = depth.space.counted([depth.near, depth.far], self.radius());
         let (low, high) = self.bounds;
@@ -420,8 +425,8 @@ impl LineModel {
             DepthSpace::World => 0.0,
         };
         Pressure {
-            along: curve(&width.pressure),
-            depth: curve(&depth.curve),
+            along: curve_of(&width.pressure),
+            depth: curve_of(&depth.curve),
             range: counted.map(|from_start| start + f64::from(from_start)),
         }
     }

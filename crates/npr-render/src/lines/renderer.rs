@@ -78,17 +78,18 @@ impl<'a> LineRenderer<'a> {
     }
 
     /// The lines of the parts whose style asks for curves that are found as `options` says; smoke hides none of them.
+    /// Where it `is_open` what is seen of them, all are there.
     pub(crate) fn draw_curves(
         &mut self,
         camera: &Camera,
         style: &Style,
-        options: &LineOptions,
+        (options, is_open): (&LineOptions, bool),
         pictures: &BTreeMap<String, Picture>,
     ) -> Result<Drawing, RenderError> {
         self.finder.start_view();
         let find = self.finder.as_mut();
         self.model
-            .draw_curves(camera, style, options, pictures, find)
+            .draw_curves(camera, style, (options, is_open), pictures, find)
     }
 
     /// How long each pass of the last view took; none on the processor.

@@ -7,7 +7,9 @@ use crate::placement::Bounds;
 use npr_core::camera::Camera;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_vector::mesh_lines::contour::EdgeContours;
-use npr_vector::mesh_lines::draw::{LineSettings, Prepared, StrokeLook, ViewStrokes, strokes_with};
+use npr_vector::mesh_lines::draw::{
+    LineSettings, Prepared, StrokeLook, ViewStrokes, spines, strokes_with,
+};
 use npr_vector::mesh_lines::puff::SmokeLines;
 use npr_vector::project::Projector;
 
@@ -27,6 +29,8 @@ pub(super) struct LineView<'a> {
     pub colors: Option<&'a StrokeColors<'a>>,
     /// Whether colours vary along strokes because they follow a backdrop.
     pub changes: bool,
+    /// Whether it is left open what is seen of lines.
+    pub is_open: bool,
 }
 
 impl LineView<'_> {
@@ -37,6 +41,11 @@ impl LineView<'_> {
         settings: &LineSettings,
         look: &StrokeLook<'_>,
     ) -> Result<ViewStrokes, RenderError> {
+        if self.is_open {
+            let (shape, contours) = (self.shape, self.contours);
+            let found = spines(shape, prepared, self.projector, settings, contours, look);
+            return Ok(found?);
+        }
         let found = strokes_with(
             self.shape,
             prepared,

@@ -103,6 +103,11 @@ pub(super) const ENTRIES: &[Entry] = &[
         "--method says how its lines are found",
     ),
     entry(
+        &["line.visibility"],
+        |c| !c.is_frame(),
+        "drawings of lines have exact sights",
+    ),
+    entry(
         &["line.brush"],
         |c| !c.is_frame(),
         "brushes are of pictures: drawings of lines have even ink",
@@ -384,6 +389,7 @@ pub(super) const ENTRIES: &[Entry] = &[
         |c| !c.is_drawn_by(&[Strokes, Potrace]),
     ),
     of_methods(&["line.brush"], |c| !c.is_drawn_by(&[Strokes, Potrace])),
+    of_methods(&["line.visibility"], |c| !c.is_drawn_by(&[Strokes])),
     of_methods(&["detect.scale"], |c| {
         !c.is_drawn_by(&[Shape, Okuya, Filter, FilterHull, Edges])
     }),

@@ -6,7 +6,7 @@ use glam::DVec3;
 use npr_core::line_kind::KIND_NUMBER_BITS;
 
 /// Runs shorter than this are left out, in pixels. Parts cut at corners are not: the line that they are of goes on.
-pub(crate) const SPECK_PX: f64 = 3.0;
+pub const SPECK_PX: f64 = 3.0;
 
 /// A point of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -53,6 +53,14 @@ pub fn see_samples(on: &Scenery<'_>, samples: &[SpineSample], gaps: &mut [f32]) 
     });
 }
 
+/// The triangle of an id; none for a hull or nothing.
+fn triangle_of(id: u32) -> Option<u32> {
+    if id & HULL_BIT != 0 {
+        return None;
+    }
+    (id & ID_MASK).checked_sub(1)
+}
+
 /// A triangle at a place of the picture.
 struct Met {
     /// Whether it covers the place.
@@ -75,14 +83,20 @@ impl Scenery<'_> {
         let rows = y.saturating_sub(1)..=(y + 1).min(height - 1);
         let columns = x.saturating_sub(1)..=(x + 1).min(width - 1);
 
-        // Look for triangles that cover the sample, and for whether all around lie in front of it.
-        let (mut is_covered, mut all_before) = (false, true);
-        let (mut hider, mut around) = (f32::INFINITY, f32::INFINITY);
-        for (py, px) in rows.flat_map(|py| columns.clone().map(move |px| (py, px))) {
-            let id = self.ids[(py * width + px) as usize];
-            let triangle = (id & ID_MASK).checked_sub(1).filter(|_| id & HULL_BIT == 0);
-            let Some(triangle) = triangle else {
-                all_before = false;
+        // Of the triangles that cover the sample take the nearest in front of it.
+        let pixels = || {
+            rows.clone()
+                .flat_map(|py| columns.clone().map(move |px| [px, py]))
+        };
+        let id_at = |[px, py]: [u32; 2]| self.ids[(py * width + px) as usize];
+        let (mut is_covered, mut hider, mut last) = (false, f32::INFINITY, 0);
+        for id in pixels().map(id_at) {
+            // Neighbours mostly show the same one.
+            if id == last {
+                continue;
+            }
+            last = id;
+            let Some(triangle) = triangle_of(id) else {
                 continue;
             };
             let met = self.met(triangle, sample, sample.spine_px);
@@ -92,18 +106,21 @@ impl Scenery<'_> {
                     hider = hider.min(met.depth);
                 }
             }
-            let beside = self.met(triangle, sample, self.window.frame_at(px, py));
-            let pixel = self.pixel_coordinate(beside.depth);
-            let clearly = CLEARLY_PX * beside.slope.min(STEEPEST * pixel).max(pixel);
-            all_before &= beside.before > clearly;
-            around = around.min(beside.depth);
         }
 
-        // One that covers it decides, before others that lie around it.
-        let hider = match is_covered {
-            false if all_before => around,
-            _ => hider,
-        };
+        // Where none covers it, see whether all around lie clearly in front.
+        if !is_covered {
+            for pixel in pixels() {
+                let triangle = triangle_of(id_at(pixel))?;
+                let met = self.met(triangle, sample, self.window.frame_at(pixel[0], pixel[1]));
+                let size = self.pixel_coordinate(met.depth);
+                let clearly = CLEARLY_PX * met.slope.min(STEEPEST * size).max(size);
+                if !(met.before > clearly) {
+                    return None;
+                }
+                hider = hider.min(met.depth);
+            }
+        }
         let gap = (sample.depth - hider) / self.view.pixel_before_eye(hider);
         (hider < f32::INFINITY).then_some(gap)
     }

@@ -10,9 +10,9 @@ use crate::mesh_lines::line::Line;
 use crate::mesh_lines::line_settings::LineSettings;
 use crate::mesh_lines::merge::{TOUCHING_PX, merge_ends};
 use crate::mesh_lines::relabel_intersections::relabel_intersections;
-use crate::mesh_lines::run::{Run, RunPoint};
+use crate::mesh_lines::run::{Run, RunPoint, distance};
 use crate::mesh_lines::run_assembly::runs;
-use crate::mesh_lines::smooth::smooth;
+use crate::mesh_lines::smooth::{between, smooth};
 use crate::mesh_lines::visibility::{Piece, Span};
 use crate::project::Projector;
 use npr_core::budget::OverBudget;
@@ -20,6 +20,9 @@ use npr_core::geometry::NONE;
 use npr_core::line_kind::KindSet;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use rayon::prelude::*;
+
+/// Greatest distance of points, in pixels, within which a line in the world and in the picture go alike.
+const STEP_PX: f64 = 8.0;
 
 /// Most faces around a corner that are looked at.
 const LARGEST_FAN: usize = 32;
@@ -61,7 +64,9 @@ pub fn spines(
     let mut found = Vec::new();
     for graph in graphs {
         let lines = view.open_lines(graph, &mut toll)?;
-        found.extend(runs(shape, projector, graph, (&lines, false)));
+        let of_graph = runs(shape, projector, graph, (&lines, false));
+        let of_graph = of_graph.into_par_iter().with_min_len(16);
+        found.par_extend(of_graph.map(|run| with_steps(run, projector)));
     }
 
     // Join those that touch, cut them at corners, and smooth them.
@@ -84,6 +89,36 @@ pub fn spines(
         strokes,
         left_out: 0,
     })
+}
+
+/// The run with points at most [`STEP_PX`] apart, each where it lies in the world.
+///
+/// Smoothing blends neighbours in the picture and in the world alike, which over a long piece is not the same place.
+fn with_steps(run: Run, projector: &Projector) -> Run {
+    let back = run.points.first().copied().filter(|_| run.closed);
+    let next = run.points.iter().skip(1).copied().chain(back);
+    let mut points = Vec::with_capacity(run.points.len());
+    for (from, to) in run.points.iter().zip(next) {
+        points.push(*from);
+        let count = (distance(from.place, to.place) / STEP_PX).ceil();
+        let depths = [from.depth, to.depth];
+        points.extend((1..count.clamp(1.0, 1e4) as u32).map(|step| {
+            let share = f64::from(step) / count;
+            let world = from
+                .world
+                .lerp(to.world, projector.world_share(share, depths));
+            RunPoint {
+                place: projector.project(world),
+                depth: projector.depth(world),
+                world,
+                ..between(from, &to, share)
+            }
+        }));
+    }
+    if !run.closed {
+        points.extend(run.points.last());
+    }
+    Run { points, ..run }
 }
 
 impl View<'_> {
