@@ -9,7 +9,7 @@
 
 @group(0) @binding(0) var<storage, read> verdicts: array<u32>;
 @group(0) @binding(1) var<storage, read> clear: array<u32>;
-@group(0) @binding(2) var<storage, read> slots: array<u32>;
+@group(0) @binding(2) var<storage, read> clear_slots: array<u32>;
 @group(0) @binding(3) var<storage, read> clear_list: array<u32>;
 @group(0) @binding(4) var<storage, read_write> visible: array<u32>;
 
@@ -23,6 +23,6 @@ fn main(
     let element = element_index(wid, nwg, lid, WG);
     if element >= arrayLength(&verdicts) { return; }
 
-    let last = clear_list[slots[element] + clear[element] - 1u];
+    let last = clear_list[clear_slots[element] + clear[element] - 1u];
     visible[element] = verdicts[last];
 }

@@ -5,6 +5,7 @@
 // Twin    npr_vector::sampled::ink_samples
 //
 //# use lib/grid
+//# use lib/geometry
 //# use lib/window
 //# use lib/spine
 //# use lib/ink_point
@@ -15,31 +16,33 @@
 @group(0) @binding(3) var<storage, read> samples: array<SpineSample>;
 @group(0) @binding(4) var<storage, read> gaps: array<f32>;
 @group(0) @binding(5) var<storage, read> visible: array<u32>;
-@group(0) @binding(6) var<storage, read> starts: array<u32>;
-@group(0) @binding(7) var<storage, read> slots: array<u32>;
-@group(0) @binding(8) var<storage, read> firsts: array<u32>;
-@group(0) @binding(9) var<storage, read_write> points: array<InkPoint>;
+@group(0) @binding(6) var<storage, read> part_slots: array<u32>;
+@group(0) @binding(7) var<storage, read> part_firsts: array<u32>;
+@group(0) @binding(8) var<storage, read_write> points: array<InkPoint>;
 
 const JUNCTION: f32 = 6.0;
 const BEYOND: u32 = 3u;
-const NO_SAMPLE: u32 = 0xffffffffu;
 
 // The first sample of the part that holds a sample, and the one after its last.
 fn part_of(sample: u32) -> vec2<u32> {
-    let part = slots[sample] + starts[sample] - 1u;
-    let first = firsts[part];
+    // As many parts start before the sample; it may itself start one.
+    let before = part_slots[sample];
+    let starts = before < arrayLength(&part_firsts) && part_firsts[before] == sample;
+    let part = select(before - 1u, before, starts);
+    let first = part_firsts[part];
     let line = lines[samples[sample].line];
     var end = line.first + line.count;
     // Behind the last part there is none.
-    if part + 1u < arrayLength(&firsts) && firsts[part + 1u] > first { end = min(end, firsts[part + 1u]); }
+    let next = part + 1u;
+    if next < arrayLength(&part_firsts) && part_firsts[next] > first { end = min(end, part_firsts[next]); }
     return vec2<u32>(first, end);
 }
 
-// The sample that a point stands for; NO_SAMPLE where both of its samples are hidden.
+// The sample that a point stands for; NONE where both of its samples are hidden.
 fn chosen(index: u32) -> u32 {
     let first = 2u * index;
     let second = first + 1u;
-    if second >= arrayLength(&samples) { return NO_SAMPLE; }
+    if second >= arrayLength(&samples) { return NONE; }
     let seen = vec2<bool>(visible[first] != 0u, visible[second] != 0u);
     if all(seen) {
         // A part that ends here ends with its last sample; one that also begins here is a speck.
@@ -47,7 +50,7 @@ fn chosen(index: u32) -> u32 {
         return select(first, second, part.y == second + 1u && part.x < first);
     }
     if seen.x { return first; }
-    return select(NO_SAMPLE, second, seen.y);
+    return select(NONE, second, seen.y);
 }
 
 fn greatest_gap(first: u32, end: u32) -> f32 {
@@ -116,11 +119,11 @@ fn main(
 
     // Choose the sample, and see whether the stroke goes on to the next point.
     let own = chosen(element);
-    if own == NO_SAMPLE { return; }
+    if own == NONE { return; }
     let part = part_of(own);
     let next = chosen(element + 1u);
     var goes_on = false;
-    if next != NO_SAMPLE { goes_on = all(part_of(next) == part); }
+    if next != NONE { goes_on = all(part_of(next) == part); }
 
     // Leave out specks, and what has no width.
     let sample = samples[own];

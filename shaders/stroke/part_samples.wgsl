@@ -7,7 +7,7 @@
 
 @group(0) @binding(0) var<storage, read> samples: array<SpineSample>;
 @group(0) @binding(1) var<storage, read> visible: array<u32>;
-@group(0) @binding(2) var<storage, read_write> starts: array<u32>;
+@group(0) @binding(2) var<storage, read_write> part_starts: array<u32>;
 
 // One invocation per sample.
 @compute @workgroup_size(WG)
@@ -19,9 +19,9 @@ fn main(
     let element = element_index(wid, nwg, lid, WG);
     if element >= arrayLength(&samples) { return; }
 
-    starts[element] = 1u;
+    part_starts[element] = 1u;
     if element == 0u { return; }
     let before = element - 1u;
     let goes_on = visible[before] == visible[element] && samples[before].line == samples[element].line;
-    starts[element] = select(1u, 0u, goes_on);
+    part_starts[element] = select(1u, 0u, goes_on);
 }

@@ -27,7 +27,6 @@ const LEAST_WEIGHT: f32 = -1e-5;
 const CLEARLY_PX: f32 = 0.5;
 const STEEPEST: f32 = 8.0;
 const LEAST_GAP: f32 = 1e-6;
-const NOTHING: f32 = 1e30;
 
 // A triangle at a place of the picture.
 struct Met {
@@ -71,9 +70,9 @@ fn is_triangle(id: u32) -> bool {
     return (id & HULL_BIT) == 0u && (id & ID_MASK) != 0u;
 }
 
-// The depth of what hides a sample, or NOTHING.
+// The depth of what hides a sample, or FAR_DEPTH if nothing does.
 fn hider_of(sample: SpineSample) -> f32 {
-    if sample.half_width <= 0.0 || window.size.x * window.size.y == 0u { return NOTHING; }
+    if sample.half_width <= 0.0 || window.size.x * window.size.y == 0u { return FAR_DEPTH; }
     let middle = pixel_at(window, sample.spine_px);
     let low = max(middle, vec2<u32>(1u)) - vec2<u32>(1u);
     let high = min(middle + vec2<u32>(1u), window.size - vec2<u32>(1u));
@@ -81,7 +80,7 @@ fn hider_of(sample: SpineSample) -> f32 {
 
     // Of the triangles that cover the sample take the nearest in front of it.
     var is_covered = false;
-    var hider = NOTHING;
+    var hider = FAR_DEPTH;
     var last = 0u;
     for (var y = low.y; y <= high.y; y++) {
         for (var x = low.x; x <= high.x; x++) {
@@ -102,12 +101,12 @@ fn hider_of(sample: SpineSample) -> f32 {
     for (var y = low.y; y <= high.y; y++) {
         for (var x = low.x; x <= high.x; x++) {
             let id = textureLoad(ids, vec2<u32>(x, y), 0).x;
-            if !is_triangle(id) { return NOTHING; }
+            if !is_triangle(id) { return FAR_DEPTH; }
             let at_px = frame_at(window, vec2<u32>(x, y));
             let met = met_by(sample, triangles[(id & ID_MASK) - 1u].corners, at_px);
             let size = pixel_coordinate(met.depth);
             let clearly = CLEARLY_PX * max(min(met.slope, STEEPEST * size), size);
-            if !(met.before > clearly) { return NOTHING; }
+            if !(met.before > clearly) { return FAR_DEPTH; }
             hider = min(hider, met.depth);
         }
     }
@@ -127,5 +126,5 @@ fn main(
     let sample = samples[element];
     let hider = hider_of(sample);
     let pixel = max(world_per_pixel(view, max(hider, view.near)), 1e-20);
-    gaps[element] = select(0.0, max((sample.depth - hider) / pixel, LEAST_GAP), hider < NOTHING);
+    gaps[element] = select(0.0, max((sample.depth - hider) / pixel, LEAST_GAP), hider < FAR_DEPTH);
 }

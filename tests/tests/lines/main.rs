@@ -7,3 +7,4 @@ mod contour_growth;
 mod curves_in_frames;
 mod expression;
 mod outlines;
+mod sampled_sights;

@@ -66,7 +66,7 @@ pub fn add_sampling(graph: &mut Graph, on: &SampledFrame) -> ResourceId {
     let Compacted { list, slots, .. } = add_compact(graph, starts, count, &ListWork::WHOLE);
     let points = graph.buffer::<InkPoint>("points of samples", count / 2);
     let inked = [
-        on.view, on.width, on.lines, on.samples, gaps, visible, starts, slots, list, points,
+        on.view, on.width, on.lines, on.samples, gaps, visible, slots, list, points,
     ];
     graph.compute(&stroke::INK_SAMPLES, &inked);
     points

@@ -103,7 +103,6 @@ pub const INK_SAMPLES: Pass = Pass {
         read::<SpineSample>("samples"),
         read::<f32>("gaps"),
         read::<u32>("visible"),
-        read::<u32>("part_starts"),
         read::<u32>("part_slots"),
         read::<u32>("part_firsts"),
         write::<InkPoint>("points"),
@@ -113,12 +112,11 @@ pub const INK_SAMPLES: Pass = Pass {
     twin: |b| {
         let parts = Parts {
             visible: b.read(5),
-            starts: b.read(6),
-            slots: b.read(7),
-            firsts: b.read(8),
+            slots: b.read(6),
+            firsts: b.read(7),
         };
         let seen = (b.read(3), b.read(4));
-        sampled::ink_samples((&b.one(0), &b.one(1)), b.read(2), seen, &parts, b.write(9));
+        sampled::ink_samples((&b.one(0), &b.one(1)), b.read(2), seen, &parts, b.write(8));
     },
 };
 

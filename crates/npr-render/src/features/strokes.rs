@@ -80,7 +80,7 @@ pub(crate) fn sample_room(
             "method potrace",
         ),
         (options.layers, "layers"),
-        (is_tiled, "frames in tiles"),
+        (is_tiled, "tiles"),
     ];
     let needs: Vec<&str> = reasons
         .iter()
@@ -88,10 +88,9 @@ pub(crate) fn sample_room(
         .map(|(_, what)| *what)
         .collect();
     if !needs.is_empty() {
-        let verb = if needs.len() == 1 { "asks" } else { "ask" };
         let what = needs.join(", ");
         notices.push(format!(
-            "line.visibility is exact in this frame: {what} {verb} for it"
+            "line.visibility is exact in this frame, because of {what}"
         ));
         return 0;
     }

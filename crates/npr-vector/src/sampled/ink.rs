@@ -18,8 +18,6 @@ const BEYOND: u32 = 3;
 pub struct Parts<'a> {
     /// Whether every sample is visible, 1 or 0.
     pub visible: &'a [u32],
-    /// 1 for the first sample of every part.
-    pub starts: &'a [u32],
     /// Number of parts that start before every sample.
     pub slots: &'a [u32],
     /// The first sample of every part; behind those of all parts, anything.
@@ -79,7 +77,6 @@ pub fn inked(
     // Ink them.
     let parts = Parts {
         visible,
-        starts: &starts,
         slots: &slots,
         firsts: &firsts,
     };
@@ -186,8 +183,13 @@ impl Inking<'_> {
     }
 
     fn part_of(&self, sample: u32) -> Part {
+        // As many parts start before the sample; it may itself start one.
         let parts = self.parts;
-        let part = (parts.slots[sample as usize] + parts.starts[sample as usize] - 1) as usize;
+        let before = parts.slots[sample as usize] as usize;
+        let part = match parts.firsts.get(before) == Some(&sample) {
+            true => before,
+            false => before - 1,
+        };
         let first = parts.firsts[part];
         let line = &self.lines[self.samples[sample as usize].line as usize];
         let line_end = line.first + line.count;
