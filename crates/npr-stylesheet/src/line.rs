@@ -87,16 +87,18 @@ pub struct Line {
     pub crease_angle_deg: f32 = CREASE_ANGLE_DEG,
     /// What that angle lies between; default `normals`, so that smooth shading hides the folds of a coarse mesh.
     pub crease_from: CreaseFrom = CreaseFrom::default(),
-    /// By how much less an edge may fold where a crease goes on along it, in degrees, 0..180; default 0, none. 15 mends
-    /// folds that scans and soft shading break into dashes; more runs on over facets. Of method `strokes`, and of
+    /// By how much less an edge may fold where a crease goes on along it to another line, in degrees, 0..180; default
+    /// 15. 0 breaks folds of scans and of soft shading into dashes; 25 draws facets. Of method `strokes`, and of
     /// drawings as curves.
     #[schemars(range(min = 0.0, max = 180.0))]
-    pub crease_slack_deg: f32 = 0.0,
-    /// Length under which a crease is left out that ends in the open, where no other line meets it; default 0, none. 20
-    /// leaves out stubs, 60 all but long folds. Of methods `strokes` and `potrace`, and of drawings as curves.
-    pub crease_least: Length = Length::ref_px(0.0),
-    /// The same of lines of all kinds; default 0, none. 12 clears scans of shreds, 40 costs faces their small lines.
-    pub least: Length = Length::ref_px(0.0),
+    pub crease_slack_deg: f32 = 15.0,
+    /// Length under which a crease is left out that ends in the open, where no other line meets it; default 48. 0
+    /// draws all, 20 leaves out stubs, 100 all but long folds. Of methods `strokes` and `potrace`, and of drawings as
+    /// curves.
+    pub crease_least: Length = Length::ref_px(48.0),
+    /// The same of lines of all kinds; default 24. 0 draws all, 12 clears scans of most shreds, 40 costs faces their
+    /// small lines.
+    pub least: Length = Length::ref_px(24.0),
     /// Angle, in degrees, from which a stroke is cut where it turns sharply in the picture, 10..180; default 180,
     /// never. 60 draws a box in strokes along its sides, each with the brush's own ends. Of drawings as curves only.
     #[schemars(range(min = 10.0, max = 180.0))]

@@ -114,6 +114,25 @@ fn each_line_and_each_copy_sways_for_itself() {
     }
 }
 
+/// The image of a brush lies elsewhere on every copy, and runs on as on the line.
+#[test]
+fn each_copy_has_its_own_place_in_the_image() {
+    let all = drawn(vec![line(1), line(2)], &Hand { copies: 8, ..CALM });
+    let ahead = |stroke: &Stroke| stroke.points[0].u - stroke.points[0].position[0];
+    for strokes in all.chunks(8) {
+        let mut places: Vec<f64> = strokes.iter().map(ahead).collect();
+        places.sort_by(f64::total_cmp);
+        assert!(
+            places.windows(2).all(|two| two[1] - two[0] > 25.0),
+            "{places:?}"
+        );
+        for stroke in strokes {
+            let along = stroke.points.windows(2).map(|two| two[1].u - two[0].u);
+            assert!((along.sum::<f64>() - stroke.length()).abs() < 0.05 * stroke.length());
+        }
+    }
+}
+
 /// A line that ends on another one still does once both sway; the other way round, a free end stays.
 #[test]
 fn ends_follow_the_line_that_they_lie_on() {

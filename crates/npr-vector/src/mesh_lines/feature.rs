@@ -20,8 +20,9 @@ const GO_ON_COS: f64 = 0.7;
 /// All feature lines of a shape, linked along equal kinds of one object.
 ///
 /// At a point where two edges of a kind meet the line goes on; where more meet, through the straightest pairs. Where a
-/// crease would end alone it goes on along edges that fold by the lower angle, as long as they run on within 45 degrees,
-/// to the next feature edge: the hysteresis of [Canny 1986, section VI] along lines of a mesh. Edges between faces that
+/// crease would end alone it goes on along edges that fold by the lower angle, as long as they run on within 45 degrees
+/// and if they lead to another feature: the hysteresis of [Canny 1986] along lines of a mesh. Differs: what would end
+/// in the open is not drawn. Edges between faces that
 /// are wound against each other are in the graph without a kind: in some views they are contours. O(edges + features
 /// log features).
 pub fn features(shape: &HalfEdgeMesh, creases: impl Into<Creases>) -> CurveGraph {
@@ -79,17 +80,35 @@ fn go_on(
         }
     }
 
-    // Keep those that a crease reaches.
-    let mut is_reached = vec![false; candidates.len()];
-    is_reached[..strong_count].fill(true);
-    for end in 0..2 * strong_count {
-        let mut next = mates[end];
-        while next != NONE && !is_reached[next as usize / 2] {
-            is_reached[next as usize / 2] = true;
+    // Keep those along which a crease comes to another feature.
+    let vertex_of = |end: u32| shape.ends(candidates[end as usize / 2].0)[end as usize % 2];
+    let mut has_feature = vec![false; shape.positions.len()];
+    for end in 0..2 * strong_count as u32 {
+        has_feature[vertex_of(end) as usize] = true;
+    }
+    let mut is_kept = vec![false; candidates.len()];
+    is_kept[..strong_count].fill(true);
+    for start in 0..2 * strong_count {
+        let mut way = Vec::new();
+        let mut next = mates[start];
+        let mut is_there = false;
+        while next != NONE && !is_there && !is_kept[next as usize / 2] {
+            way.push(next as usize / 2);
+            is_there = has_feature[vertex_of(next ^ 1) as usize];
             next = mates[next as usize ^ 1];
         }
+        if is_there {
+            way.into_iter()
+                .for_each(|candidate| is_kept[candidate] = true);
+        }
     }
-    retain(&candidates, &mates, &is_reached)
+    for end in 0..mates.len() {
+        let mate = mates[end];
+        if mate != NONE && !(is_kept[end / 2] && is_kept[mate as usize / 2]) {
+            mates[end] = NONE;
+        }
+    }
+    retain(&candidates, &mates, &is_kept)
 }
 
 /// The candidates that are kept, with their mates, which are kept too.

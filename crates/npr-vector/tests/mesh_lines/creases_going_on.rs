@@ -69,26 +69,25 @@ fn creases(shape: &HalfEdgeMesh, angles_deg: [f32; 2]) -> (BTreeSet<u32>, usize)
     )
 }
 
-/// The pieces that are drawn, by trial: those that fold enough, and then, until there are no more, those beside them
-/// that fold by the lower angle.
+/// The pieces that are drawn: those that fold enough, and rows of those that fold by the lower angle between two such,
+/// or between one and an end of the ridge, where the border runs.
 fn expected(folds_deg: &[f64]) -> Vec<bool> {
     let [angle, weak] = ANGLES_DEG.map(f64::from);
-    let mut drawn: Vec<bool> = folds_deg.iter().map(|fold| *fold > angle).collect();
-    loop {
-        let before = drawn.clone();
-        for i in 0..drawn.len() {
-            let beside = [i.checked_sub(1), Some(i + 1)].into_iter().flatten();
-            let goes_on = beside.into_iter().any(|j| before.get(j) == Some(&true));
-            drawn[i] |= goes_on && folds_deg[i] > weak;
-        }
-        if drawn == before {
-            return drawn;
-        }
-    }
+    let is_strong = |i: usize| folds_deg[i] > angle;
+    let is_drawn = |i: usize| {
+        let before = (0..i)
+            .rev()
+            .find(|j| is_strong(*j) || folds_deg[*j] <= weak);
+        let after = (i + 1..folds_deg.len()).find(|j| is_strong(*j) || folds_deg[*j] <= weak);
+        let leads = |to: Option<usize>| to.is_none_or(is_strong);
+        let starts = [before, after].into_iter().flatten().any(is_strong);
+        is_strong(i) || folds_deg[i] > weak && starts && leads(before) && leads(after)
+    };
+    (0..folds_deg.len()).map(is_drawn).collect()
 }
 
 proptest! {
-    /// A ridge is drawn where it folds enough, and on from there while it folds by the lower angle, in one line each.
+    /// A ridge is drawn where it folds enough, and between while it folds by the lower angle, in one line each.
     #[test]
     fn a_ridge_goes_on_while_it_folds_by_the_lower_angle(depths in prop::collection::vec(0.05..0.6f32, 2..24)) {
         let shape = ridge(&depths);
