@@ -178,7 +178,7 @@ fn moved_ends(strokes: &[Stroke], lengths: &[f64], sways: &[Option<Sway>]) -> Ve
     for meeting in found {
         let from_end = meeting.way.min(lengths[meeting.with] - meeting.way);
         let goes_on = strokes[meeting.with].closed || from_end > meeting.distance.max(1.0);
-        let of_end = &mut nearest[meeting.stroke][meeting.side];
+        let of_end = &mut nearest[meeting.stroke][meeting.place];
         if goes_on && of_end.is_none_or(|last| meeting.distance < last.distance) {
             *of_end = Some(meeting);
         }

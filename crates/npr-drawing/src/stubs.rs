@@ -1,25 +1,33 @@
-//! Stubs: short lines with an end in the open, where no other line meets it.
+//! Stubs: short parts of lines from an end in the open, where no other line meets it, to the next line.
 //!
 //! A crease that barely reaches its angle shows on a few edges here and there, and the contour of a rough surface in
 //! shreds. A draughtsman draws such a fold as a whole or not at all.
 
-use crate::ends::{Meeting, is_cut_off, meetings};
+use crate::arc::Measured;
+use crate::ends::{Meeting, Place, is_cut_off, meetings_at};
 use npr_vector::stroke::Stroke;
 use rayon::prelude::*;
 
-/// How far from a line ends meet it, in halves of its width: what smoothing moves apart is within it.
+/// How far from a line others meet it, in halves of its width: what smoothing moves apart is within it.
 const REACH: f64 = 2.0;
+
+/// What meets a stroke within this way of its end, in pixels, holds the end.
+const HELD_PX: f64 = 3.0;
+
+/// Distance of the places of a stroke at which it is looked for others, in pixels.
+const STEP_PX: f64 = 1.0;
 
 /// Most rounds in which what met stubs alone is a stub too.
 const ROUNDS_MOST: usize = 16;
 
-/// Removes the visible open strokes that are stubs, in a picture of `size` pixels: of lines shorter than the pixels
-/// that `least_px` gives for their strokes, with an open end, which meets nothing that stays. Strokes of 0 pixels stay.
+/// Removes stubs from the visible open strokes that are shorter than the pixels that `least_px` gives for them, in a
+/// picture of `size` pixels. Strokes of 0 pixels stay.
 ///
-/// A line meets an end that lies within its width; the border of the picture holds ends as lines do. Two strokes whose
-/// ends meet and that meet nothing else there are one line, so a long fold in short strokes stays. Stubs go in rounds,
-/// 16 at most: what met them alone may be one then. O(strokes log strokes + points), on all threads, with the same
-/// result for any number of them.
+/// A stub is the part of a line from an open end, which meets nothing, to the first other line that meets it, or all of
+/// it where none does, if it is below those pixels. A line meets places within its width; the border of the picture
+/// holds ends as lines do. Two strokes whose ends meet and that meet nothing else there are one line, so a long fold in
+/// short strokes stays. Stubs go in rounds, 16 at most: what met them alone may be one then. O(points + pixels of short
+/// strokes + meetings), on all threads, with the same result for any number of them.
 pub fn remove_stubs(
     strokes: &mut Vec<Stroke>,
     size: [u32; 2],
@@ -27,128 +35,241 @@ pub fn remove_stubs(
 ) {
     // Choose what may go.
     let lengths: Vec<f64> = strokes.par_iter().map(Stroke::length).collect();
-    let least_of = |(stroke, length): (&Stroke, &f64)| {
-        let may_go = stroke.is_visible() && !stroke.closed;
+    let short = strokes.par_iter().zip(&lengths).map(|(stroke, length)| {
         let least_px = least_px(stroke);
-        if may_go && *length < least_px {
-            least_px
-        } else {
-            0.0
-        }
+        let may_go = *length < least_px && stroke.is_visible() && !stroke.closed;
+        Short::new(may_go.then(|| Measured::new(stroke)).flatten()?, least_px)
+    });
+    let mut net = Net {
+        lines: short.collect(),
     };
-    let least_px: Vec<f64> = strokes.par_iter().zip(&lengths).map(least_of).collect();
-    let is_short: Vec<bool> = least_px.iter().map(|least_px| *least_px > 0.0).collect();
-    if !is_short.contains(&true) {
+    if net.lines.iter().all(Option::is_none) {
         return;
     }
+    net.find_meetings(strokes, size);
 
     // Let stubs go, until there are none.
-    let mut net = Net::new(strokes, size, lengths, least_px);
     for _ in 0..ROUNDS_MOST {
         let stubs = net.stubs();
         if stubs.is_empty() {
             break;
         }
-        net.remove(&stubs);
+        net.cut(&stubs);
     }
-    let mut stays = net.stays.into_iter();
-    strokes.retain(|_| stays.next().unwrap_or(true));
+
+    // Keep what is left of every stroke.
+    let mut lines = net.lines.into_iter();
+    strokes.retain_mut(|stroke| match lines.next().flatten() {
+        Some(line) if line.is_gone() => false,
+        Some(line) if line.is_cut() => {
+            stroke.points = line.course.part(line.range[0], line.range[1]);
+            true
+        }
+        _ => true,
+    });
 }
 
-/// Short strokes, and what meets their ends.
+/// A short stroke, and what meets it.
+struct Short {
+    course: Measured,
+    /// Length below which a part is a stub, in pixels.
+    least_px: f64,
+    /// What is left of it: pixels from its start. Nothing is left where they are equal.
+    range: [f64; 2],
+    /// Pixels from its start, and the stroke that meets it there, as long as that stays; ascending. Where the border of
+    /// the picture does, the stroke itself.
+    met: Vec<(f64, usize)>,
+}
+
+impl Short {
+    fn new(course: Measured, least_px: f64) -> Option<Self> {
+        let range = [0.0, course.length()];
+        (least_px > 0.0).then_some(Self {
+            course,
+            least_px,
+            range,
+            met: Vec::new(),
+        })
+    }
+
+    fn is_gone(&self) -> bool {
+        self.range[0] >= self.range[1]
+    }
+
+    fn is_cut(&self) -> bool {
+        self.range != [0.0, self.course.length()]
+    }
+
+    /// What holds an end, each once.
+    fn holders(&self, side: usize) -> Vec<usize> {
+        let near = |(way, _): &&(f64, usize)| (way - self.range[side]).abs() <= HELD_PX;
+        let mut holders: Vec<usize> = self
+            .met
+            .iter()
+            .filter(near)
+            .map(|(_, with)| *with)
+            .collect();
+        holders.sort_unstable();
+        holders.dedup();
+        holders
+    }
+
+    /// The first place from an end where something meets it that holds neither end.
+    fn first_met(&self, side: usize) -> Option<f64> {
+        let [from, to] = [self.range[0] + HELD_PX, self.range[1] - HELD_PX];
+        let mut inside = self
+            .met
+            .iter()
+            .map(|(way, _)| *way)
+            .filter(|way| *way > from && *way < to);
+        match side {
+            0 => inside.next(),
+            _ => inside.next_back(),
+        }
+    }
+}
+
+/// A part that goes: of a stroke, from one of its ends up to a way from its start.
+type Cut = (usize, usize, f64);
+
+/// Short strokes; `None` for others.
 struct Net {
-    lengths: Vec<f64>,
-    /// Of every short stroke the length below which a line is a stub; 0 of others.
-    least_px: Vec<f64>,
-    stays: Vec<bool>,
-    /// Of every short stroke and each of its ends the strokes that stay and meet it; itself where the border does.
-    held_by: Vec<[Vec<usize>; 2]>,
+    lines: Vec<Option<Short>>,
 }
 
 impl Net {
-    fn new(strokes: &[Stroke], size: [u32; 2], lengths: Vec<f64>, least_px: Vec<f64>) -> Self {
-        // Find the strokes that meet ends of others.
-        let is_met = |found: &Meeting| least_px[found.stroke] > 0.0 && found.with != found.stroke;
-        let met = meetings(strokes, &lengths, REACH).filter(is_met);
-        let mut met: Vec<_> = met
-            .map(|found| (found.stroke, found.side, found.with))
+    /// Finds where other strokes and the border meet the short ones.
+    fn find_meetings(&mut self, strokes: &[Stroke], size: [u32; 2]) {
+        // Look around them in steps.
+        let steps = |line: &Short| line.course.in_steps(STEP_PX);
+        let places: Vec<Vec<(f64, [f64; 2])>> = self
+            .lines
+            .par_iter()
+            .map(|line| {
+                let steps = line.as_ref().map(steps).unwrap_or_default();
+                steps
+                    .into_iter()
+                    .map(|(way, point)| (way, point.position))
+                    .collect()
+            })
             .collect();
-        met.par_sort_unstable();
-        met.dedup();
+        let all = (0..).zip(&places).flat_map(|(stroke, places)| {
+            (0..)
+                .zip(places)
+                .map(move |(number, (way, position))| Place {
+                    stroke,
+                    number,
+                    way: *way,
+                    position: *position,
+                })
+        });
+        let is_met = |found: &Meeting| found.with != found.stroke;
+        let met = meetings_at(all, strokes, REACH).filter(is_met);
+        let mut met: Vec<Meeting> = met.collect();
+        let order = |found: &Meeting| (found.stroke, found.with, found.place);
+        met.par_sort_unstable_by(|a, b| {
+            order(a)
+                .cmp(&order(b))
+                .then(a.distance.total_cmp(&b.distance))
+        });
 
-        // Add the border.
-        let mut held_by = vec![[Vec::new(), Vec::new()]; strokes.len()];
-        for (number, stroke) in strokes
-            .iter()
-            .enumerate()
-            .filter(|(i, _)| least_px[*i] > 0.0)
-        {
-            let ends = [stroke.points.first(), stroke.points.last()];
-            for (side, end) in ends.into_iter().enumerate() {
-                if end.is_some_and(|end| is_cut_off(end.position, size)) {
-                    held_by[number][side].push(number);
-                }
+        // Keep the nearest place of every row of places.
+        let goes_on = |a: &Meeting, b: &Meeting| {
+            (a.stroke, a.with) == (b.stroke, b.with) && b.place - a.place <= 1
+        };
+        for row in met.chunk_by(goes_on) {
+            let nearest = row.iter().min_by(|a, b| a.distance.total_cmp(&b.distance));
+            if let Some((found, line)) =
+                nearest.and_then(|f| Some((f, self.lines[f.stroke].as_mut()?)))
+            {
+                line.met
+                    .push((places[found.stroke][found.place].0, found.with));
             }
         }
-        met.into_iter()
-            .for_each(|(stroke, side, with)| held_by[stroke][side].push(with));
-        Self {
-            stays: vec![true; strokes.len()],
-            lengths,
-            least_px,
-            held_by,
-        }
-    }
 
-    /// The strokes of all stubs, ascending.
-    fn stubs(&self) -> Vec<usize> {
-        let ends = (0..self.stays.len()).flat_map(|stroke| [(stroke, 0), (stroke, 1)]);
-        let is_open = |(stroke, side): &(usize, usize)| {
-            self.least_px[*stroke] > 0.0
-                && self.stays[*stroke]
-                && self.held_by[*stroke][*side].is_empty()
-        };
-        let mut stubs: Vec<usize> = ends
-            .filter(is_open)
-            .filter_map(|end| self.stub_from(end))
-            .flatten()
-            .collect();
-        stubs.sort_unstable();
-        stubs.dedup();
-        stubs
-    }
-
-    /// The strokes of the line that begins with an open end, if it is a stub.
-    fn stub_from(&self, end: (usize, usize)) -> Option<Vec<usize>> {
-        let (mut stroke, mut side) = end;
-        let mut line = vec![stroke];
-        let mut length = self.lengths[stroke];
-        while length < self.least_px[end.0] {
-            let Some(next) = self.beyond(stroke, 1 - side) else {
-                return Some(line);
+        // Add the border, and sort them.
+        for (number, line) in self.lines.iter_mut().enumerate() {
+            let (Some(line), places) = (line, &places[number]) else {
+                continue;
             };
-            (stroke, side) = next;
-            line.push(stroke);
-            length += self.lengths[stroke];
+            let ends = [places.first(), places.last()].into_iter().flatten();
+            let held = ends.filter(|(_, position)| is_cut_off(*position, size));
+            line.met.extend(held.map(|(way, _)| (*way, number)));
+            line.met
+                .sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            line.met.dedup();
         }
-        None
+    }
+
+    /// All parts that are stubs, as things stand.
+    fn stubs(&self) -> Vec<Cut> {
+        let ends = (0..self.lines.len()).flat_map(|stroke| [(stroke, 0), (stroke, 1)]);
+        ends.filter_map(|(stroke, side)| {
+            let line = self.lines[stroke].as_ref().filter(|line| !line.is_gone())?;
+            line.holders(side)
+                .is_empty()
+                .then(|| self.stub_from(stroke, side))
+                .flatten()
+        })
+        .flatten()
+        .collect()
+    }
+
+    /// The parts of the stub that begins with an open end, if there is one.
+    fn stub_from(&self, stroke: usize, side: usize) -> Option<Vec<Cut>> {
+        let least_px = self.lines[stroke].as_ref()?.least_px;
+        let (mut stroke, mut side) = (stroke, side);
+        let (mut cuts, mut length) = (Vec::new(), 0.0);
+        loop {
+            // Go on to the next line, or to the end of this one.
+            let line = self.lines[stroke].as_ref()?;
+            let (from, first) = (line.range[side], line.first_met(side));
+            let to = first.unwrap_or(line.range[1 - side]);
+            cuts.push((stroke, side, to));
+            length += (to - from).abs();
+            if length >= least_px {
+                return None;
+            }
+
+            // Go on along the stroke that alone goes on there.
+            match self.beyond(stroke, 1 - side).filter(|_| first.is_none()) {
+                Some(next) => (stroke, side) = next,
+                None => return Some(cuts),
+            }
+        }
     }
 
     /// The end of another short stroke that alone goes on where a stroke ends.
     fn beyond(&self, stroke: usize, side: usize) -> Option<(usize, usize)> {
-        let [other] = self.held_by[stroke][side][..] else {
+        let [other] = self.lines[stroke].as_ref()?.holders(side)[..] else {
             return None;
         };
-        let meets_alone = |side: &usize| self.held_by[other][*side] == [stroke];
-        let side = (0..2).find(meets_alone)?;
-        (other != stroke && self.least_px[other] > 0.0).then_some((other, side))
+        let line = self.lines[other].as_ref()?;
+        let side = (0..2).find(|side| line.holders(*side) == [stroke])?;
+        (other != stroke).then_some((other, side))
     }
 
-    fn remove(&mut self, stubs: &[usize]) {
-        stubs.iter().for_each(|stub| self.stays[*stub] = false);
-        let stays = &self.stays;
-        let ends = self.held_by.iter_mut().flatten();
-        ends.for_each(|held_by| held_by.retain(|by| stays[*by]));
+    /// Takes parts away, and what is left of a stroke where it is too short to be seen.
+    fn cut(&mut self, cuts: &[Cut]) {
+        for (stroke, side, to) in cuts {
+            if let Some(line) = &mut self.lines[*stroke] {
+                line.range[*side] = match side {
+                    0 => line.range[0].max(*to),
+                    _ => line.range[1].min(*to),
+                };
+                if line.range[1] - line.range[0] < HELD_PX {
+                    line.range[1] = line.range[0];
+                }
+            }
+        }
+        let gone: Vec<bool> = self
+            .lines
+            .iter()
+            .map(|line| line.as_ref().is_some_and(Short::is_gone))
+            .collect();
+        for line in self.lines.iter_mut().flatten() {
+            line.met.retain(|(_, with)| !gone[*with]);
+        }
     }
 }
 
