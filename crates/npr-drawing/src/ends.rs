@@ -55,14 +55,14 @@ pub(crate) fn meetings<'a>(
     lengths: &'a [f64],
     reach: f64,
 ) -> impl ParallelIterator<Item = Meeting> + 'a {
-    meetings_at(ends_of(strokes, lengths), strokes, reach)
+    meetings_at(ends_of(strokes, lengths), strokes, (reach, 0.0))
 }
 
-/// The same of any places of open strokes in place of ends.
+/// The same of any places of open strokes in place of ends; a line meets those, too, that lie within `least_px`.
 pub(crate) fn meetings_at<'a>(
     places: impl Iterator<Item = Place>,
     strokes: &'a [Stroke],
-    reach: f64,
+    (reach, least_px): (f64, f64),
 ) -> impl ParallelIterator<Item = Meeting> + 'a {
     let places = Places::new(places);
     let visible = strokes.par_iter().enumerate();
@@ -72,7 +72,7 @@ pub(crate) fn meetings_at<'a>(
         let mut found = Vec::new();
         for (a, b) in pieces(stroke) {
             let next = along + distance(a.position, b.position);
-            let touch = reach * touch_of(a.width.max(b.width));
+            let touch = (reach * touch_of(a.width.max(b.width))).max(least_px);
             places.near(a.position, b.position, touch, |place| {
                 let is_own = place.stroke as usize == number
                     && !stroke.closed

@@ -8,8 +8,12 @@ use crate::ends::{Meeting, Place, is_cut_off, meetings_at};
 use npr_vector::stroke::Stroke;
 use rayon::prelude::*;
 
-/// How far from a line others meet it, in halves of its width: what smoothing moves apart is within it.
-const REACH: f64 = 2.0;
+/// How far from a line others meet it, in halves of its width.
+const REACH: f64 = 1.0;
+
+/// How far from a thin line they do, in pixels: ends that smoothing moves apart are within it, as at the corners that
+/// lines are joined around.
+const MEETS_PX: f64 = 4.5;
 
 /// What meets a stroke within this way of its end, in pixels, holds the end.
 const HELD_PX: f64 = 3.0;
@@ -24,7 +28,7 @@ const ROUNDS_MOST: usize = 16;
 /// picture of `size` pixels. Strokes of 0 pixels stay.
 ///
 /// A stub is the part of a line from an open end, which meets nothing, to the first other line that meets it, or all of
-/// it where none does, if it is below those pixels. A line meets places within its width; the border of the picture
+/// it where none does, if it is below those pixels. A line meets places within half its width, and within 4.5 pixels; the border of the picture
 /// holds ends as lines do. Two strokes whose ends meet and that meet nothing else there are one line, so a long fold in
 /// short strokes stays. Stubs go in rounds, 16 at most: what met them alone may be one then. O(points + pixels of short
 /// strokes + meetings), on all threads, with the same result for any number of them.
@@ -164,7 +168,7 @@ impl Net {
                 })
         });
         let is_met = |found: &Meeting| found.with != found.stroke;
-        let met = meetings_at(all, strokes, REACH).filter(is_met);
+        let met = meetings_at(all, strokes, (REACH, MEETS_PX)).filter(is_met);
         let mut met: Vec<Meeting> = met.collect();
         let order = |found: &Meeting| (found.stroke, found.with, found.place);
         met.par_sort_unstable_by(|a, b| {

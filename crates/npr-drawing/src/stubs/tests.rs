@@ -123,7 +123,7 @@ proptest! {
         // Something meets both ends of what is short and left, near to them; or it is a part of a longer line.
         let is_met = |stroke: &Stroke, place: [f64; 2]| {
             let others = kept.iter().filter(|other| other.id != stroke.id);
-            let mut near = others.filter(|other| distance_from(other, place) <= 2.0 * HELD_PX);
+            let mut near = others.filter(|other| distance_from(other, place) <= MEETS_PX + HELD_PX);
             near.next().is_some() || is_cut_off(place, SIZE)
         };
         for stroke in kept.iter().filter(|stroke| is_short(stroke)) {
