@@ -121,8 +121,9 @@ impl Hand {
 /// The first of them is the line itself. Where it ends on another line it follows that line's sway, and other ends stay
 /// where they are, so lines that meet still do; a ring comes back to its start. Copies lie beside it, each a little
 /// turned and stretched, begin and end elsewhere, also in the image of a brush, and sway for themselves; those of rings
-/// are open, and run on past where they began. All keep the stroke's id. What a short stroke sways and spreads is limited by its length.
-/// O(points + points added + meetings of lines), on all threads, with the same result for any number of them.
+/// are open, and run on past where they began. All keep the stroke's id. What a short stroke sways and spreads is
+/// limited by its length. O(points + points added + meetings of lines), on all threads, with the same result for any
+/// number of them.
 pub fn draw_by_hand(
     strokes: &mut Vec<Stroke>,
     hand: &Hand,
