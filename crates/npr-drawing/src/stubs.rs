@@ -29,7 +29,8 @@ const ROUNDS_MOST: usize = 16;
 ///
 /// A stub is the part of a line from an open end, which meets nothing, to the first other line that meets it, or all of
 /// it where none does, if it is below those pixels. A line meets places within half its width, and within 4.5 pixels; the border of the picture
-/// holds ends as lines do. Two strokes whose ends meet and that meet nothing else there are one line, so a long fold in
+/// holds ends as lines do, and so does the paper around the drawing: no end is open beyond which no line lies to one
+/// side of the picture, so outlines stay. Two strokes whose ends meet and that meet nothing else there are one line, so a long fold in
 /// short strokes stays. Stubs go in rounds, 16 at most: what met them alone may be one then. O(points + pixels of short
 /// strokes + meetings), on all threads, with the same result for any number of them.
 pub fn remove_stubs(
@@ -81,7 +82,7 @@ struct Short {
     /// What is left of it: pixels from its start. Nothing is left where they are equal.
     range: [f64; 2],
     /// Pixels from its start, and the stroke that meets it there, as long as that stays; ascending. Where the border of
-    /// the picture does, the stroke itself.
+    /// the picture or the paper around the drawing does, the stroke itself.
     met: Vec<(f64, usize)>,
 }
 
@@ -130,6 +131,43 @@ impl Short {
             0 => inside.next(),
             _ => inside.next_back(),
         }
+    }
+}
+
+/// How far the visible lines of a picture reach, in every row and every column of pixels.
+struct Reaches {
+    /// Of every row the least and the greatest x, then of every column the least and the greatest y.
+    of: [Vec<[f64; 2]>; 2],
+}
+
+impl Reaches {
+    fn new(strokes: &[Stroke], size: [u32; 2]) -> Self {
+        let none = |count: u32| vec![[f64::INFINITY, f64::NEG_INFINITY]; count as usize];
+        let mut of = [none(size[1]), none(size[0])];
+        for stroke in strokes.iter().filter(|stroke| stroke.is_visible()) {
+            let steps = Measured::new(stroke).map(|course| course.in_steps(STEP_PX));
+            for [x, y] in steps.into_iter().flatten().map(|(_, point)| point.position) {
+                for (all, [across, along]) in of.iter_mut().zip([[y, x], [x, y]]) {
+                    if across >= 0.0
+                        && let Some([least, most]) = all.get_mut(across as usize)
+                    {
+                        *least = least.min(along);
+                        *most = most.max(along);
+                    }
+                }
+            }
+        }
+        Self { of }
+    }
+
+    /// Whether no line lies beyond a place, straight to one of the four sides.
+    fn is_outermost(&self, [x, y]: [f64; 2]) -> bool {
+        let ways = self.of.iter().zip([[y, x], [x, y]]);
+        let mut ways = ways.filter(|(_, [across, _])| *across >= 0.0);
+        ways.any(|(all, [across, along])| {
+            let reach = all.get(across as usize);
+            reach.is_some_and(|[least, most]| along <= least + STEP_PX || along >= most - STEP_PX)
+        })
     }
 }
 
@@ -191,13 +229,16 @@ impl Net {
             }
         }
 
-        // Add the border, and sort them.
+        // Add the border and the paper around the drawing, and sort them.
+        let reaches = Reaches::new(strokes, size);
         for (number, line) in self.lines.iter_mut().enumerate() {
             let (Some(line), places) = (line, &places[number]) else {
                 continue;
             };
             let ends = [places.first(), places.last()].into_iter().flatten();
-            let held = ends.filter(|(_, position)| is_cut_off(*position, size));
+            let held = ends.filter(|(_, position)| {
+                is_cut_off(*position, size) || reaches.is_outermost(*position)
+            });
             line.met.extend(held.map(|(way, _)| (*way, number)));
             line.met
                 .sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));

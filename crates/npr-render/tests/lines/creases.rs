@@ -163,10 +163,10 @@ fn ridge(angles_deg: [f32; 4]) -> Scene {
 
 const ABOVE: [f32; 3] = [0.0, 0.0, 12.0];
 
-/// A white picture of creases alone.
+/// A white picture of creases and of the border around them.
 fn creases_alone(settings: &[&str]) -> Style {
     let mut style = style("strokes", "normals");
-    let kinds = ["contour", "boundary", "material", "intersection"];
+    let kinds = ["contour", "material", "intersection"];
     let off = kinds.map(|kind| format!("line.kinds.{kind}=false"));
     let all = off
         .iter()
@@ -177,7 +177,7 @@ fn creases_alone(settings: &[&str]) -> Style {
     style
 }
 
-/// The lengths of the creases that a drawing shows, and the pixels of ink of a frame.
+/// The lengths of the creases that a drawing shows, and the pixels of ink of a frame away from the border.
 fn shown(scene: &Scene, settings: &[&str]) -> (Vec<f64>, usize) {
     let style = creases_alone(settings);
     let options = LineOptions::of_style(&style, SIZE);
@@ -191,19 +191,17 @@ fn shown(scene: &Scene, settings: &[&str]) -> (Vec<f64>, usize) {
     let mut renderer =
         Renderer::with_lines(&Processor, of_model, &style, &options).expect("prepared");
     let frame = renderer.draw(&camera_at(ABOVE)).expect("drawn");
-    let ink = frame
-        .rgba
-        .chunks_exact(4)
-        .filter(|pixel| pixel[0] < 100)
-        .count();
-    (
-        drawing
-            .strokes
-            .iter()
-            .map(|stroke| stroke.length())
-            .collect(),
-        ink,
-    )
+    let pixels = frame.rgba.chunks_exact(4).enumerate();
+    let [width, height] = SIZE.map(|side| side as usize);
+    let ink = pixels.filter(|(i, pixel)| {
+        let [x, y] = [i % width, i / width];
+        pixel[0] < 100 && x.abs_diff(width / 2) < 95 && y.abs_diff(height / 2) < 12
+    });
+    let creases = drawing
+        .strokes
+        .iter()
+        .filter(|stroke| stroke.kind == Kind::Crease);
+    (creases.map(|stroke| stroke.length()).collect(), ink.count())
 }
 
 #[test]
