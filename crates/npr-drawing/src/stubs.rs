@@ -18,6 +18,9 @@ const MEETS_PX: f64 = 4.5;
 /// What meets a stroke within this way of its end, in pixels, holds the end.
 const HELD_PX: f64 = 3.0;
 
+/// What is left of a stroke that was cut goes, too, if it is shorter, in pixels: it would be a dash between two lines.
+const LEAST_LEFT_PX: f64 = 9.0;
+
 /// Distance of the places of a stroke at which it is looked for others, in pixels.
 const STEP_PX: f64 = 1.0;
 
@@ -302,7 +305,7 @@ impl Net {
                     0 => line.range[0].max(*to),
                     _ => line.range[1].min(*to),
                 };
-                if line.range[1] - line.range[0] < HELD_PX {
+                if line.range[1] - line.range[0] < LEAST_LEFT_PX {
                     line.range[1] = line.range[0];
                 }
             }
