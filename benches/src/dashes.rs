@@ -52,7 +52,8 @@ impl InkPicture {
     /// Length of the lines in pixels: half of the way around the ink.
     ///
     /// By Cauchy and Crofton: lines in all directions have sides of pixels between ink and paper in the ratio of 4 to
-    /// pi to the way around. Lines along rows or columns come out at 0.79 of their length, diagonal ones at 1.11. O(pixels).
+    /// pi to the way around. Lines along rows or columns come out at 0.79 of their length, diagonal ones at 1.11.
+    /// O(pixels).
     pub fn length(&self) -> f64 {
         let rows = || self.is_ink.chunks_exact(self.width.max(1));
         let along_rows = rows().map(|row| {

@@ -64,8 +64,8 @@ fn report(preset: &str, style: &Style) -> Outcome<()> {
     println!("- machine: {}", machine::description());
     println!("- code: {}\n", machine::code());
     println!(
-        "Lines of preset {preset}@{} at {}x{}, by method `{}` and, for comparison, `{}`. Ink is what lines cover by more \
-         than half of a pixel. A dash is a piece of it, joined by sides and corners, below {LEAST_AREA_PX} square \
+        "Lines of preset {preset}@{} at {}x{}, by method `{}` and, for comparison, `{}`. Ink is what lines cover by \
+         more than half of a pixel. A dash is a piece of it, joined by sides and corners, below {LEAST_AREA_PX} square \
          pixels or {LEAST_EXTENT_PX} pixels of extent. The length of line is half of the way around the ink, by \
          Cauchy and Crofton. Short strokes are below {LEAST_EXTENT_PX} pixels long; most of them join others, and are \
          no dashes.\n",

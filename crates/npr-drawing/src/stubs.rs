@@ -31,11 +31,12 @@ const ROUNDS_MOST: usize = 16;
 /// picture of `size` pixels. Strokes of 0 pixels stay.
 ///
 /// A stub is the part of a line from an open end, which meets nothing, to the first other line that meets it, or all of
-/// it where none does, if it is below those pixels. A line meets places within half its width, and within 4.5 pixels; the border of the picture
-/// holds ends as lines do, and so does the paper around the drawing: no end is open beyond which no line lies to one
-/// side of the picture, so outlines stay. Two strokes whose ends meet and that meet nothing else there are one line, so a long fold in
-/// short strokes stays. Stubs go in rounds, 16 at most: what met them alone may be one then. O(points + pixels of short
-/// strokes + meetings), on all threads, with the same result for any number of them.
+/// it where none does, if it is below those pixels. A line meets places within half its width, and within 4.5 pixels;
+/// the border of the picture holds ends as lines do, and so does the paper around the drawing: no end is open beyond
+/// which no line lies to one side of the picture, so outlines stay. Two strokes whose ends meet and that meet nothing
+/// else there are one line, so a long fold in short strokes stays. Stubs go in rounds, 16 at most: what met them alone
+/// may be one then. O(points + pixels of short strokes + meetings), on all threads, with the same result for any
+/// number of them.
 pub fn remove_stubs(
     strokes: &mut Vec<Stroke>,
     size: [u32; 2],

@@ -68,8 +68,8 @@ impl Expression {
 
     /// Draws the visible strokes for which `is_drawn` is true so, in a picture of `size` pixels.
     ///
-    /// Stubs and specks go before ends move, as what is short is about lines and not about pens. Tapers follow the ends; copies
-    /// have the tapers of their line; and each copy is dashed for itself.
+    /// Stubs and specks go before ends move, as what is short is about lines and not about pens. Tapers follow the
+    /// ends; copies have the tapers of their line; and each copy is dashed for itself.
     ///
     /// # Errors
     ///
