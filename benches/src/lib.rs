@@ -17,6 +17,7 @@
 pub mod card;
 pub mod comic;
 pub mod cost;
+pub mod dashes;
 #[cfg(feature = "wgpu")]
 pub mod device;
 #[cfg(not(feature = "wgpu"))]

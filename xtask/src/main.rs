@@ -56,6 +56,9 @@ usage: cargo xtask COMMAND
   measure smoke     measure cartoon smoke, in release, and keep the tables
   measure outline-colour
                     measure outlines before backgrounds, in release, and keep the tables
+  measure dashes [ARGS]
+                    count dashes in pictures of lines, in release, and keep the tables of the usual style;
+                    ARGS: --preset NAME, --set KEY=VALUE
   measure device [ARGS]
                     count what a frame asks of a graphics device, in release, predict its time on cards, and keep the
                     tables of the usual frame; ARGS: --model FILE, --ball TRIANGLES, --preset NAME, --size WxH
@@ -104,6 +107,7 @@ fn dispatch(root: &Path, words: &[&str]) -> Option<Result<()>> {
         ["measure", "comic"] => measure::comic(root),
         ["measure", "smoke"] => measure::smoke(root),
         ["measure", "outline-colour"] => measure::outline_color(root),
+        ["measure", "dashes", rest @ ..] => measure::dashes(root, rest),
         ["measure", "device", rest @ ..] => measure::device(root, rest),
         ["measure", "trace"] => measure::trace(root),
         ["gallery", presets @ ..] => gallery::draw(root, presets),

@@ -23,6 +23,9 @@ const SMOKE: &str = "benches/results/smoke.md";
 /// Where the tables of outlines before backgrounds are kept.
 const OUTLINE_COLOR: &str = "benches/results/outline_color.md";
 
+/// Where the tables of dashes are kept.
+const DASHES: &str = "benches/results/dashes.md";
+
 /// Where the tables of frames on graphics cards are kept.
 const DEVICE: &str = "benches/results/device_model.md";
 
@@ -80,6 +83,15 @@ pub fn smoke(root: &Path) -> Result<()> {
 pub fn outline_color(root: &Path) -> Result<()> {
     let tables = tables_of(root, "outline", &[])?;
     write_whole(&root.join(OUTLINE_COLOR), &tables)
+}
+
+/// Counts dashes in pictures of lines in release and prints the tables; those of the usual style become the results.
+pub fn dashes(root: &Path, arguments: &[&str]) -> Result<()> {
+    let tables = tables_of(root, "dashes", arguments)?;
+    if arguments.is_empty() {
+        write_whole(&root.join(DASHES), &tables)?;
+    }
+    Ok(())
 }
 
 /// Counts what a frame asks of a graphics device in release, and prints the times that this predicts on cards beside

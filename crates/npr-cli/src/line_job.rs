@@ -215,6 +215,7 @@ fn options(args: &LinesArguments, style: &Style) -> LineOptions {
     LineOptions {
         kinds: named.unwrap_or(of_style.kinds),
         crease: crease.map_or(of_style.crease, f32::to_radians),
+        crease_slack: crease.map_or(of_style.crease_slack, |_| 0.0),
         crease_from: crease_from.map_or(of_style.crease_from, CreaseFrom::from),
         split: split.map_or(of_style.split, LineOptions::split_at),
         method: *method,

@@ -15,22 +15,35 @@ pub enum CreaseFrom {
 pub struct Creases {
     /// Cosine of the angle: an edge with a smaller one is a crease.
     pub cos: f32,
-    /// What the angle lies between.
+    /// Cosine of the angle from which an edge is a crease where a line of creases goes on along it: `cos` or more.
+    pub weak_cos: f32,
+    /// What the angles lie between.
     pub from: CreaseFrom,
 }
 
 impl Creases {
     /// Creases from an angle in radians.
     pub fn over(angle: f32, from: CreaseFrom) -> Self {
-        let cos = crate::math::cos(angle);
-        Self { cos, from }
+        Self::with_slack(angle, 0.0, from)
+    }
+
+    /// Creases from an angle, and from one smaller by `slack` where a line of creases goes on, both in radians.
+    pub fn with_slack(angle: f32, slack: f32, from: CreaseFrom) -> Self {
+        Self {
+            cos: crate::math::cos(angle),
+            weak_cos: crate::math::cos((angle - slack.max(0.0)).max(0.0)),
+            from,
+        }
     }
 }
 
 impl From<f32> for Creases {
     /// Under this cosine, by the file's normals.
     fn from(cos: f32) -> Self {
-        let from = CreaseFrom::Normals;
-        Self { cos, from }
+        Self {
+            cos,
+            weak_cos: cos,
+            from: CreaseFrom::Normals,
+        }
     }
 }

@@ -1,4 +1,4 @@
-//! Ends of strokes, and where other lines meet them.
+//! Ends and other places of strokes, and where lines meet them.
 
 use crate::fit::distance2_to_segment;
 use foldhash::fast::FixedState;
@@ -17,13 +17,26 @@ const FARTHEST_TOUCH_PX: f64 = 64.0;
 /// Distance, in pixels, from the border of the picture within which an end is cut off by it.
 const BORDER_PX: f64 = 1.0;
 
-/// A place where a visible line meets an end.
+/// A place of a stroke.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Place {
+    /// The stroke.
+    pub stroke: u32,
+    /// Number of the place on it; of ends 0 for its start, 1 for its end.
+    pub number: u32,
+    /// Pixels along the stroke from its start.
+    pub way: f64,
+    /// Where it lies in the picture.
+    pub position: [f64; 2],
+}
+
+/// A place where a visible line meets one of a stroke.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Meeting {
-    /// The stroke whose end it is.
+    /// The stroke whose place it is.
     pub stroke: usize,
-    /// 0 for its start, 1 for its end.
-    pub side: usize,
+    /// Number of that place; of ends 0 for its start, 1 for its end.
+    pub place: usize,
     /// The stroke that meets it; its own where this comes back.
     pub with: usize,
     /// Pixels along that stroke from its start.
@@ -42,7 +55,16 @@ pub(crate) fn meetings<'a>(
     lengths: &'a [f64],
     reach: f64,
 ) -> impl ParallelIterator<Item = Meeting> + 'a {
-    let ends = Ends::new(strokes);
+    meetings_at(ends_of(strokes, lengths), strokes, (reach, 0.0))
+}
+
+/// The same of any places of open strokes in place of ends; a line meets those, too, that lie within `least_px`.
+pub(crate) fn meetings_at<'a>(
+    places: impl Iterator<Item = Place>,
+    strokes: &'a [Stroke],
+    (reach, least_px): (f64, f64),
+) -> impl ParallelIterator<Item = Meeting> + 'a {
+    let places = Places::new(places);
     let visible = strokes.par_iter().enumerate();
     let visible = visible.filter(|(_, stroke)| stroke.is_visible());
     visible.flat_map_iter(move |(number, stroke)| {
@@ -50,20 +72,20 @@ pub(crate) fn meetings<'a>(
         let mut found = Vec::new();
         for (a, b) in pieces(stroke) {
             let next = along + distance(a.position, b.position);
-            let touch = reach * touch_of(a.width.max(b.width));
-            ends.near(a.position, b.position, touch, |end| {
-                let is_own = end.stroke as usize == number
+            let touch = (reach * touch_of(a.width.max(b.width))).max(least_px);
+            places.near(a.position, b.position, touch, |place| {
+                let is_own = place.stroke as usize == number
                     && !stroke.closed
-                    && end.arc_from(along, next, lengths[number]) < 4.0 * touch;
-                let places = [end.position, a.position, b.position];
-                let [place, a, b] = places.map(|[x, y]| Point::new(x, y));
-                let distance2 = distance2_to_segment(place, a, b);
+                    && place.arc_from(along, next) < 4.0 * touch;
+                let corners = [place.position, a.position, b.position];
+                let [at, a, b] = corners.map(|[x, y]| Point::new(x, y));
+                let distance2 = distance2_to_segment(at, a, b);
                 if !is_own && distance2 <= touch * touch {
                     let piece = b - a;
-                    let share = (place - a).dot(piece) / piece.hypot2().max(f64::MIN_POSITIVE);
+                    let share = (at - a).dot(piece) / piece.hypot2().max(f64::MIN_POSITIVE);
                     found.push(Meeting {
-                        stroke: end.stroke as usize,
-                        side: end.side,
+                        stroke: place.stroke as usize,
+                        place: place.number as usize,
                         with: number,
                         way: along + (next - along) * share.clamp(0.0, 1.0),
                         distance: distance2.sqrt(),
@@ -97,58 +119,57 @@ fn pieces(stroke: &Stroke) -> impl Iterator<Item = (&StrokePoint, &StrokePoint)>
     open.chain(closing)
 }
 
-/// An end of an open stroke.
-#[derive(Debug, Clone, Copy)]
-struct End {
-    stroke: u32,
-    /// 0 for the start, 1 for the end.
-    side: usize,
-    position: [f64; 2],
+impl Place {
+    /// The way along its own stroke to a piece of it.
+    fn arc_from(&self, from: f64, to: f64) -> f64 {
+        (from - self.way).max(self.way - to)
+    }
 }
 
-impl End {
-    /// The way along its own stroke, `length` long, to a piece of it.
-    fn arc_from(&self, from: f64, to: f64, length: f64) -> f64 {
-        match self.side {
-            0 => from,
-            _ => length - to,
-        }
-    }
+/// The ends of visible open strokes.
+fn ends_of<'a>(strokes: &'a [Stroke], lengths: &'a [f64]) -> impl Iterator<Item = Place> + 'a {
+    let all = (0..).zip(strokes).zip(lengths);
+    let open = all.filter(|((_, stroke), _)| !stroke.closed && stroke.is_visible());
+    open.flat_map(|((number, stroke), length)| {
+        let ends = [
+            (stroke.points.first(), 0.0),
+            (stroke.points.last(), *length),
+        ];
+        let places = (0..).zip(ends).filter_map(move |(side, (point, way))| {
+            Some(Place {
+                stroke: number,
+                number: side,
+                way,
+                position: point?.position,
+            })
+        });
+        places
+    })
 }
 
 /// Width of a cell, in pixels.
 const CELL_PX: f64 = 16.0;
 
-/// The ends of strokes by cells of the picture.
-struct Ends {
-    cells: HashMap<[i32; 2], Vec<End>, FixedState>,
+/// Places of strokes by cells of the picture.
+struct Places {
+    cells: HashMap<[i32; 2], Vec<Place>, FixedState>,
 }
 
-impl Ends {
-    fn new(strokes: &[Stroke]) -> Self {
-        let mut cells: HashMap<[i32; 2], Vec<End>, FixedState> = HashMap::default();
-        for (number, stroke) in (0..).zip(strokes) {
-            if stroke.closed || !stroke.is_visible() {
-                continue;
-            }
-            let ends = [stroke.points.first(), stroke.points.last()];
-            for (side, point) in ends.into_iter().enumerate() {
-                if let Some(point) = point {
-                    let end = End {
-                        stroke: number,
-                        side,
-                        position: point.position,
-                    };
-                    cells.entry(cell_of(point.position)).or_default().push(end);
-                }
-            }
+impl Places {
+    fn new(places: impl Iterator<Item = Place>) -> Self {
+        let mut cells: HashMap<[i32; 2], Vec<Place>, FixedState> = HashMap::default();
+        for place in places {
+            cells
+                .entry(cell_of(place.position))
+                .or_default()
+                .push(place);
         }
         Self { cells }
     }
 
-    /// Calls `visit` with all ends within `reach` of a straight piece, and with some around; none of pieces that are
+    /// Calls `visit` with all places within `reach` of a straight piece, and with some around; none of pieces that are
     /// not finite.
-    fn near(&self, a: [f64; 2], b: [f64; 2], reach: f64, mut visit: impl FnMut(&End)) {
+    fn near(&self, a: [f64; 2], b: [f64; 2], reach: f64, mut visit: impl FnMut(&Place)) {
         // Walk along the piece, a cell's width a step.
         let length = distance(a, b);
         if length.is_nan() || length > LONGEST_PX {

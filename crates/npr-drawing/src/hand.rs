@@ -47,6 +47,12 @@ const OVERLAP_SPREADS: f64 = 10.0;
 /// they run into, which nobody sees until it sways.
 const REACH: f64 = 3.0;
 
+/// Greatest way that the texture of a copy is ahead of its line's, in pixels: more than any image of a brush is long.
+const AHEAD_PX: f64 = 4096.0;
+
+/// The number of the chance that decides it; those of ends and of the sway are others.
+const AHEAD_NUMBER: u32 = u32::MAX;
+
 /// Most copies of a stroke.
 pub const COPIES_MAX: u32 = 8;
 
@@ -114,9 +120,10 @@ impl Hand {
 ///
 /// The first of them is the line itself. Where it ends on another line it follows that line's sway, and other ends stay
 /// where they are, so lines that meet still do; a ring comes back to its start. Copies lie beside it, each a little
-/// turned and stretched, begin and end elsewhere, and sway for themselves; those of rings are open, and run on past
-/// where they began. All keep the stroke's id. What a short stroke sways and spreads is limited by its length.
-/// O(points + points added + meetings of lines), on all threads, with the same result for any number of them.
+/// turned and stretched, begin and end elsewhere, also in the image of a brush, and sway for themselves; those of rings
+/// are open, and run on past where they began. All keep the stroke's id. What a short stroke sways and spreads is
+/// limited by its length. O(points + points added + meetings of lines), on all threads, with the same result for any
+/// number of them.
 pub fn draw_by_hand(
     strokes: &mut Vec<Stroke>,
     hand: &Hand,
@@ -172,7 +179,7 @@ fn moved_ends(strokes: &[Stroke], lengths: &[f64], sways: &[Option<Sway>]) -> Ve
     for meeting in found {
         let from_end = meeting.way.min(lengths[meeting.with] - meeting.way);
         let goes_on = strokes[meeting.with].closed || from_end > meeting.distance.max(1.0);
-        let of_end = &mut nearest[meeting.stroke][meeting.side];
+        let of_end = &mut nearest[meeting.stroke][meeting.place];
         if goes_on && of_end.is_none_or(|last| meeting.distance < last.distance) {
             *of_end = Some(meeting);
         }
@@ -245,7 +252,9 @@ impl Hand {
             true => self.step(),
             false => f64::INFINITY,
         };
-        let moved = |(way, point): (f64, StrokePoint)| {
+        let ahead = AHEAD_PX * seed.share(AHEAD_NUMBER);
+        let moved = |(way, mut point): (f64, StrokePoint)| {
+            point.u += ahead;
             let share = (way / course.length()).clamp(0.0, 1.0);
             let sway = sway.as_ref().map_or([0.0; 2], |sway| sway.at(way));
             let by = [0, 1].map(|i| beside[0][i] * (1.0 - share) + beside[1][i] * share + sway[i]);

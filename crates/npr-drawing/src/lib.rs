@@ -4,10 +4,10 @@
 //! [`artwork`] decides what a file shows of it, in which layers, and on which page; [`svg`], [`pdf`] and [`drawing`]
 //! write that, [`json`] the strokes themselves; [`ink`] gives points for the pass that inks a frame. On the way
 //! [`fit`] makes cubic curves of points, [`outline`] the outline of a stroke whose width varies, and [`plot`] an order
-//! with short ways in the air. [`overshoot`] lets strokes run on beyond their ends, [`pressure`] makes them swell and
-//! thin out by curves, [`taper`] thins them at their ends, [`hand`] lets them sway and draws them more than once, and
-//! [`dash`] cuts them. [`fill`] makes closed regions of what lines
-//! enclose, [`lettering`] outlines of words, and [`centreline`] files of centre lines.
+//! with short ways in the air. [`stubs`] leaves out short lines that end in the open, [`overshoot`] lets strokes run on
+//! beyond their ends, [`pressure`] makes them swell and thin out by curves, [`taper`] thins them at their ends,
+//! [`hand`] lets them sway and draws them more than once, and [`dash`] cuts them. [`fill`] makes closed regions of
+//! what lines enclose, [`lettering`] outlines of words, and [`centreline`] files of centre lines.
 //!
 //! ```
 //! use npr_drawing::svg::{SvgOptions, write_svg};
@@ -53,6 +53,7 @@ pub mod pressure;
 pub mod sampled;
 mod seed;
 pub mod stamps;
+pub mod stubs;
 pub mod svg;
 pub mod taper;
 #[cfg(test)]

@@ -156,8 +156,8 @@ const TOO_NEAR_PX: f64 = 1e-3;
 pub(crate) fn met_ends(strokes: &[Stroke], lengths: &[f64], size: [u32; 2]) -> Vec<[bool; 2]> {
     // Note those that lines pass.
     let is_met: Vec<[AtomicBool; 2]> = strokes.iter().map(|_| Default::default()).collect();
-    meetings(strokes, lengths, 1.0).for_each(|Meeting { stroke, side, .. }| {
-        is_met[stroke][side].store(true, Ordering::Relaxed);
+    meetings(strokes, lengths, 1.0).for_each(|Meeting { stroke, place, .. }| {
+        is_met[stroke][place].store(true, Ordering::Relaxed);
     });
 
     // Add those at the border.

@@ -5,7 +5,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::overlay::style_table;
 use crate::{
-    Color, Dash, Hand, Kinds, LineBackground, LineBrush, LinePaint, LineSource, Potrace, Width,
+    Color, Dash, Hand, Kinds, Length, LineBackground, LineBrush, LinePaint, LineSource, Potrace,
+    Width,
 };
 
 /// How lines are found and drawn.
@@ -97,6 +98,18 @@ pub struct Line {
     pub crease_angle_deg: f32 = CREASE_ANGLE_DEG,
     /// What that angle lies between; default `normals`, so that smooth shading hides the folds of a coarse mesh.
     pub crease_from: CreaseFrom = CreaseFrom::default(),
+    /// By how much less an edge may fold where a crease goes on along it to another line, in degrees, 0..180; default
+    /// 15. 0 breaks folds of scans and of soft shading into dashes; 25 draws facets. Of method `strokes`, and of
+    /// drawings as curves.
+    #[schemars(range(min = 0.0, max = 180.0))]
+    pub crease_slack_deg: f32 = 15.0,
+    /// Length under which a crease is left out that ends in the open, where no other line meets it; default 48. 0
+    /// draws all, 20 leaves out stubs, 100 all but long folds. Of methods `strokes` and `potrace`, and of drawings as
+    /// curves.
+    pub crease_least: Length = Length::ref_px(48.0),
+    /// The same of lines of all kinds; default 24. 0 draws all, 12 clears scans of most shreds, 40 costs faces their
+    /// small lines.
+    pub least: Length = Length::ref_px(24.0),
     /// How it is found what is seen of strokes; default `exact`. `sampled` is faster where lines are many, and leaves
     /// lines side by side as they are. Dashes, overshoot, stamps, method `potrace`, layers and tiles need `exact`.
     pub visibility: LineVisibility = LineVisibility::default(),

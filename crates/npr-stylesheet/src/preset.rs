@@ -22,164 +22,164 @@ pub struct Preset {
 const PRESETS: &[Preset] = &[
     Preset {
         name: "toon",
-        version: 2,
+        version: 3,
         title: "Three flat tones of the material's colour under dark brown lines",
         text: include_str!("../presets/toon.toml"),
     },
     Preset {
         name: "ink",
-        version: 2,
+        version: 3,
         title: "Black swelling lines and solid shadows on warm white paper",
         text: include_str!("../presets/ink.toml"),
     },
     Preset {
         name: "g-pen",
-        version: 2,
+        version: 3,
         title: "Nib lines that swell and run out to points, on white paper",
         text: include_str!("../presets/g-pen.toml"),
     },
     Preset {
         name: "technical",
-        version: 2,
+        version: 3,
         title: "Thin even lines on plain white parts, with every crease",
         text: include_str!("../presets/technical.toml"),
     },
     Preset {
         name: "comic-silver",
-        version: 2,
+        version: 3,
         title: "Flat colours, hatching that swells into solid ink, thick swelling outlines",
         text: include_str!("../presets/comic-silver.toml"),
     },
     Preset {
         name: "comic-modern",
-        version: 3,
+        version: 4,
         title: "Soft gradients, thin even lines, small blacks and fine hatching",
         text: include_str!("../presets/comic-modern.toml"),
     },
     Preset {
         name: "comic-light",
-        version: 2,
+        version: 3,
         title: "comic-silver, and materials named Beam* glow: lasers, flashes, explosions, trails",
         text: include_str!("../presets/comic-light.toml"),
     },
     Preset {
         name: "simple-comic",
-        version: 2,
+        version: 3,
         title: "Cel colours, solid black shade, thick even outlines",
         text: include_str!("../presets/simple-comic.toml"),
     },
     Preset {
         name: "crosshatch",
-        version: 2,
+        version: 3,
         title: "Pen strokes round the form, crossed in the dark, on white paper",
         text: include_str!("../presets/crosshatch.toml"),
     },
     Preset {
         name: "stipple",
-        version: 2,
+        version: 3,
         title: "Dots set by hand, dense in the dark, with fine outlines",
         text: include_str!("../presets/stipple.toml"),
     },
     Preset {
         name: "pencil",
-        version: 3,
+        version: 4,
         title: "Graphite on rough paper: shaky strokes, grey lines",
         text: include_str!("../presets/pencil.toml"),
     },
     Preset {
         name: "screentone",
-        version: 2,
+        version: 3,
         title: "Manga page: dots in rows on the picture, solid blacks, clean lines",
         text: include_str!("../presets/screentone.toml"),
     },
     Preset {
         name: "inked",
-        version: 1,
+        version: 2,
         title: "Flat colours under black brush strokes that swell and part where they end",
         text: include_str!("../presets/inked.toml"),
     },
     Preset {
         name: "manga",
-        version: 1,
+        version: 2,
         title: "Nib lines that run out to points, over screen tone",
         text: include_str!("../presets/manga.toml"),
     },
     Preset {
         name: "brush",
-        version: 1,
+        version: 2,
         title: "Broad strokes of a dry brush on rice paper",
         text: include_str!("../presets/brush.toml"),
     },
     Preset {
         name: "ink-wash",
-        version: 1,
+        version: 2,
         title: "A dry brush over soft grey washes on rice paper",
         text: include_str!("../presets/ink-wash.toml"),
     },
     Preset {
         name: "sketch",
-        version: 1,
+        version: 2,
         title: "Lines looked for again and again with a pencil, run on beyond corners",
         text: include_str!("../presets/sketch.toml"),
     },
     Preset {
         name: "pencil-outline",
-        version: 1,
+        version: 2,
         title: "Flat cel colours under outlines scrawled with a soft pencil",
         text: include_str!("../presets/pencil-outline.toml"),
     },
     Preset {
         name: "charcoal",
-        version: 1,
+        version: 2,
         title: "Broad crumbling lines and rubbed greys on laid paper",
         text: include_str!("../presets/charcoal.toml"),
     },
     Preset {
         name: "chalkboard",
-        version: 1,
+        version: 2,
         title: "White chalk lines on a dark green board",
         text: include_str!("../presets/chalkboard.toml"),
     },
     Preset {
         name: "blueprint",
-        version: 1,
+        version: 2,
         title: "White lines on Prussian blue that run on beyond corners",
         text: include_str!("../presets/blueprint.toml"),
     },
     Preset {
         name: "cel-2",
-        version: 2,
+        version: 3,
         title: "Two flat tones under thin lines, as painted on a cel",
         text: include_str!("../presets/cel-2.toml"),
     },
     Preset {
         name: "cel-3",
-        version: 2,
+        version: 3,
         title: "Two flat tones and a crisp highlight under thin lines",
         text: include_str!("../presets/cel-3.toml"),
     },
     Preset {
         name: "coloured-lines",
-        version: 2,
+        version: 3,
         title: "Flat tones under lines in a deep shade of each surface's own colour",
         text: include_str!("../presets/coloured-lines.toml"),
     },
     Preset {
         name: "atmosphere",
-        version: 2,
+        version: 3,
         title: "Flat tones under dark lines that pale and cool with distance",
         text: include_str!("../presets/atmosphere.toml"),
     },
     Preset {
         name: "lit-lines",
-        version: 2,
+        version: 3,
         title: "Lines thin and warm where lit, heavy and cool in the shade, \
                 bright where light from behind catches them",
         text: include_str!("../presets/lit-lines.toml"),
     },
     Preset {
         name: "night",
-        version: 2,
+        version: 3,
         title: "Dark cel paint whose lines lift from dark backgrounds, just enough to read",
         text: include_str!("../presets/night.toml"),
     },
@@ -191,37 +191,37 @@ const PRESETS: &[Preset] = &[
     },
     Preset {
         name: "smoke-cel-2",
-        version: 2,
+        version: 3,
         title: "Smoke in two tones under a dark line, as painted on a cel",
         text: include_str!("../presets/smoke-cel-2.toml"),
     },
     Preset {
         name: "smoke-cel-3",
-        version: 2,
+        version: 3,
         title: "Smoke in three tones under a dark line",
         text: include_str!("../presets/smoke-cel-3.toml"),
     },
     Preset {
         name: "smoke-ink",
-        version: 2,
+        version: 3,
         title: "Smoke in brush lines and solid blacks on white",
         text: include_str!("../presets/smoke-ink.toml"),
     },
     Preset {
         name: "smoke-comic",
-        version: 2,
+        version: 3,
         title: "Smoke in pen strokes that swell into solid ink, as in comics",
         text: include_str!("../presets/smoke-comic.toml"),
     },
     Preset {
         name: "cloud",
-        version: 2,
+        version: 3,
         title: "Bright clouds in four soft tones without lines",
         text: include_str!("../presets/cloud.toml"),
     },
     Preset {
         name: "explosion",
-        version: 2,
+        version: 3,
         title: "Fire and smoke by heat: white heart, yellow, orange, soot",
         text: include_str!("../presets/explosion.toml"),
     },
@@ -260,10 +260,34 @@ const OLDER: &[Preset] = &[
         text: include_str!("../presets/older/atmosphere-1.toml"),
     },
     Preset {
+        name: "atmosphere",
+        version: 2,
+        title: "Flat tones under dark lines that pale and cool with distance",
+        text: include_str!("../presets/older/atmosphere-2.toml"),
+    },
+    Preset {
+        name: "blueprint",
+        version: 1,
+        title: "White lines on Prussian blue that run on beyond corners",
+        text: include_str!("../presets/older/blueprint-1.toml"),
+    },
+    Preset {
+        name: "brush",
+        version: 1,
+        title: "Broad strokes of a dry brush on rice paper",
+        text: include_str!("../presets/older/brush-1.toml"),
+    },
+    Preset {
         name: "cel-2",
         version: 1,
         title: "Two flat tones under thin lines, as painted on a cel",
         text: include_str!("../presets/older/cel-2-1.toml"),
+    },
+    Preset {
+        name: "cel-2",
+        version: 2,
+        title: "Two flat tones under thin lines, as painted on a cel",
+        text: include_str!("../presets/older/cel-2-2.toml"),
     },
     Preset {
         name: "cel-3",
@@ -272,10 +296,34 @@ const OLDER: &[Preset] = &[
         text: include_str!("../presets/older/cel-3-1.toml"),
     },
     Preset {
+        name: "cel-3",
+        version: 2,
+        title: "Two flat tones and a crisp highlight under thin lines",
+        text: include_str!("../presets/older/cel-3-2.toml"),
+    },
+    Preset {
+        name: "chalkboard",
+        version: 1,
+        title: "White chalk lines on a dark green board",
+        text: include_str!("../presets/older/chalkboard-1.toml"),
+    },
+    Preset {
+        name: "charcoal",
+        version: 1,
+        title: "Broad crumbling lines and rubbed greys on laid paper",
+        text: include_str!("../presets/older/charcoal-1.toml"),
+    },
+    Preset {
         name: "cloud",
         version: 1,
         title: "Bright clouds in four soft tones without lines",
         text: include_str!("../presets/older/cloud-1.toml"),
+    },
+    Preset {
+        name: "cloud",
+        version: 2,
+        title: "Bright clouds in four soft tones without lines",
+        text: include_str!("../presets/older/cloud-2.toml"),
     },
     Preset {
         name: "coloured-lines",
@@ -284,10 +332,22 @@ const OLDER: &[Preset] = &[
         text: include_str!("../presets/older/coloured-lines-1.toml"),
     },
     Preset {
+        name: "coloured-lines",
+        version: 2,
+        title: "Flat tones under lines in a deep shade of each surface's own colour",
+        text: include_str!("../presets/older/coloured-lines-2.toml"),
+    },
+    Preset {
         name: "comic-light",
         version: 1,
         title: "comic-silver, and materials named Beam* glow: lasers, flashes, explosions, trails",
         text: include_str!("../presets/older/comic-light-1.toml"),
+    },
+    Preset {
+        name: "comic-light",
+        version: 2,
+        title: "comic-silver, and materials named Beam* glow: lasers, flashes, explosions, trails",
+        text: include_str!("../presets/older/comic-light-2.toml"),
     },
     Preset {
         name: "comic-modern",
@@ -302,10 +362,22 @@ const OLDER: &[Preset] = &[
         text: include_str!("../presets/older/comic-modern-2.toml"),
     },
     Preset {
+        name: "comic-modern",
+        version: 3,
+        title: "Soft gradients, thin even lines, small blacks and fine hatching",
+        text: include_str!("../presets/older/comic-modern-3.toml"),
+    },
+    Preset {
         name: "comic-silver",
         version: 1,
         title: "Flat colours, hatching that swells into solid ink, thick swelling outlines",
         text: include_str!("../presets/older/comic-silver-1.toml"),
+    },
+    Preset {
+        name: "comic-silver",
+        version: 2,
+        title: "Flat colours, hatching that swells into solid ink, thick swelling outlines",
+        text: include_str!("../presets/older/comic-silver-2.toml"),
     },
     Preset {
         name: "crosshatch",
@@ -314,10 +386,22 @@ const OLDER: &[Preset] = &[
         text: include_str!("../presets/older/crosshatch-1.toml"),
     },
     Preset {
+        name: "crosshatch",
+        version: 2,
+        title: "Pen strokes round the form, crossed in the dark, on white paper",
+        text: include_str!("../presets/older/crosshatch-2.toml"),
+    },
+    Preset {
         name: "explosion",
         version: 1,
         title: "Fire and smoke by heat: white heart, yellow, orange, soot",
         text: include_str!("../presets/older/explosion-1.toml"),
+    },
+    Preset {
+        name: "explosion",
+        version: 2,
+        title: "Fire and smoke by heat: white heart, yellow, orange, soot",
+        text: include_str!("../presets/older/explosion-2.toml"),
     },
     Preset {
         name: "g-pen",
@@ -326,10 +410,34 @@ const OLDER: &[Preset] = &[
         text: include_str!("../presets/older/g-pen-1.toml"),
     },
     Preset {
+        name: "g-pen",
+        version: 2,
+        title: "Nib lines that swell and run out to points, on white paper",
+        text: include_str!("../presets/older/g-pen-2.toml"),
+    },
+    Preset {
         name: "ink",
         version: 1,
         title: "Black swelling lines and solid shadows on warm white paper",
         text: include_str!("../presets/older/ink-1.toml"),
+    },
+    Preset {
+        name: "ink",
+        version: 2,
+        title: "Black swelling lines and solid shadows on warm white paper",
+        text: include_str!("../presets/older/ink-2.toml"),
+    },
+    Preset {
+        name: "ink-wash",
+        version: 1,
+        title: "A dry brush over soft grey washes on rice paper",
+        text: include_str!("../presets/older/ink-wash-1.toml"),
+    },
+    Preset {
+        name: "inked",
+        version: 1,
+        title: "Flat colours under black brush strokes that swell and part where they end",
+        text: include_str!("../presets/older/inked-1.toml"),
     },
     Preset {
         name: "lit-lines",
@@ -339,10 +447,29 @@ const OLDER: &[Preset] = &[
         text: include_str!("../presets/older/lit-lines-1.toml"),
     },
     Preset {
+        name: "lit-lines",
+        version: 2,
+        title: "Lines thin and warm where lit, heavy and cool in the shade, \
+                bright where light from behind catches them",
+        text: include_str!("../presets/older/lit-lines-2.toml"),
+    },
+    Preset {
+        name: "manga",
+        version: 1,
+        title: "Nib lines that run out to points, over screen tone",
+        text: include_str!("../presets/older/manga-1.toml"),
+    },
+    Preset {
         name: "night",
         version: 1,
         title: "Dark cel paint whose lines lift from dark backgrounds, just enough to read",
         text: include_str!("../presets/older/night-1.toml"),
+    },
+    Preset {
+        name: "night",
+        version: 2,
+        title: "Dark cel paint whose lines lift from dark backgrounds, just enough to read",
+        text: include_str!("../presets/older/night-2.toml"),
     },
     Preset {
         name: "pencil",
@@ -357,10 +484,28 @@ const OLDER: &[Preset] = &[
         text: include_str!("../presets/older/pencil-2.toml"),
     },
     Preset {
+        name: "pencil",
+        version: 3,
+        title: "Graphite on rough paper: shaky strokes, grey lines",
+        text: include_str!("../presets/older/pencil-3.toml"),
+    },
+    Preset {
+        name: "pencil-outline",
+        version: 1,
+        title: "Flat cel colours under outlines scrawled with a soft pencil",
+        text: include_str!("../presets/older/pencil-outline-1.toml"),
+    },
+    Preset {
         name: "screentone",
         version: 1,
         title: "Manga page: dots in rows on the picture, solid blacks, clean lines",
         text: include_str!("../presets/older/screentone-1.toml"),
+    },
+    Preset {
+        name: "screentone",
+        version: 2,
+        title: "Manga page: dots in rows on the picture, solid blacks, clean lines",
+        text: include_str!("../presets/older/screentone-2.toml"),
     },
     Preset {
         name: "simple-comic",
@@ -369,10 +514,28 @@ const OLDER: &[Preset] = &[
         text: include_str!("../presets/older/simple-comic-1.toml"),
     },
     Preset {
+        name: "simple-comic",
+        version: 2,
+        title: "Cel colours, solid black shade, thick even outlines",
+        text: include_str!("../presets/older/simple-comic-2.toml"),
+    },
+    Preset {
+        name: "sketch",
+        version: 1,
+        title: "Lines looked for again and again with a pencil, run on beyond corners",
+        text: include_str!("../presets/older/sketch-1.toml"),
+    },
+    Preset {
         name: "smoke-cel-2",
         version: 1,
         title: "Smoke in two tones under a dark line, as painted on a cel",
         text: include_str!("../presets/older/smoke-cel-2-1.toml"),
+    },
+    Preset {
+        name: "smoke-cel-2",
+        version: 2,
+        title: "Smoke in two tones under a dark line, as painted on a cel",
+        text: include_str!("../presets/older/smoke-cel-2-2.toml"),
     },
     Preset {
         name: "smoke-cel-3",
@@ -381,10 +544,22 @@ const OLDER: &[Preset] = &[
         text: include_str!("../presets/older/smoke-cel-3-1.toml"),
     },
     Preset {
+        name: "smoke-cel-3",
+        version: 2,
+        title: "Smoke in three tones under a dark line",
+        text: include_str!("../presets/older/smoke-cel-3-2.toml"),
+    },
+    Preset {
         name: "smoke-comic",
         version: 1,
         title: "Smoke in pen strokes that swell into solid ink, as in comics",
         text: include_str!("../presets/older/smoke-comic-1.toml"),
+    },
+    Preset {
+        name: "smoke-comic",
+        version: 2,
+        title: "Smoke in pen strokes that swell into solid ink, as in comics",
+        text: include_str!("../presets/older/smoke-comic-2.toml"),
     },
     Preset {
         name: "smoke-ink",
@@ -393,10 +568,22 @@ const OLDER: &[Preset] = &[
         text: include_str!("../presets/older/smoke-ink-1.toml"),
     },
     Preset {
+        name: "smoke-ink",
+        version: 2,
+        title: "Smoke in brush lines and solid blacks on white",
+        text: include_str!("../presets/older/smoke-ink-2.toml"),
+    },
+    Preset {
         name: "stipple",
         version: 1,
         title: "Dots set by hand, dense in the dark, with fine outlines",
         text: include_str!("../presets/older/stipple-1.toml"),
+    },
+    Preset {
+        name: "stipple",
+        version: 2,
+        title: "Dots set by hand, dense in the dark, with fine outlines",
+        text: include_str!("../presets/older/stipple-2.toml"),
     },
     Preset {
         name: "technical",
@@ -405,10 +592,22 @@ const OLDER: &[Preset] = &[
         text: include_str!("../presets/older/technical-1.toml"),
     },
     Preset {
+        name: "technical",
+        version: 2,
+        title: "Thin even lines on plain white parts, with every crease",
+        text: include_str!("../presets/older/technical-2.toml"),
+    },
+    Preset {
         name: "toon",
         version: 1,
         title: "Three flat tones of the material's colour under dark brown lines",
         text: include_str!("../presets/older/toon-1.toml"),
+    },
+    Preset {
+        name: "toon",
+        version: 2,
+        title: "Three flat tones of the material's colour under dark brown lines",
+        text: include_str!("../presets/older/toon-2.toml"),
     },
 ];
 
@@ -489,6 +688,21 @@ mod tests {
         }
     }
 
+    /// The last version from before strokes, of presets where that was not the first.
+    const LAST_WITHOUT_STROKES: [(&str, u32); 11] = [
+        ("blueprint", 0),
+        ("brush", 0),
+        ("chalkboard", 0),
+        ("charcoal", 0),
+        ("comic-modern", 2),
+        ("g-pen", 0),
+        ("ink-wash", 0),
+        ("inked", 0),
+        ("manga", 0),
+        ("pencil-outline", 0),
+        ("sketch", 0),
+    ];
+
     /// Versions that drew strokes, with a pen where the next ones have brushes.
     const WITH_PENS: [(&str, u32); 2] = [("g-pen", 1), ("pencil", 2)];
 
@@ -497,22 +711,22 @@ mod tests {
         let line_of = |name: &str| Style::preset(name).expect("a preset").line;
         for older in OLDER {
             let line = line_of(&format!("{}@{}", older.name, older.version));
-            let had_pen = WITH_PENS.contains(&(older.name, older.version));
-            let wanted = if had_pen {
-                OutlineMethod::Strokes
-            } else {
-                OutlineMethod::Shape
-            };
-            assert_eq!(line.method, wanted, "{}", older.name);
-            assert!(line.brush.is_pen(), "{}", older.name);
+            let last = LAST_WITHOUT_STROKES
+                .iter()
+                .find(|(name, _)| *name == older.name)
+                .map_or(1, |(_, version)| *version);
             let newest = line_of(older.name);
+            if older.version <= last {
+                assert_eq!(line.method, OutlineMethod::Shape, "{}", older.name);
+                assert!(line.brush.is_pen(), "{}", older.name);
+            } else {
+                assert_eq!(line.method, OutlineMethod::Strokes, "{}", older.name);
+                let had_pen = WITH_PENS.contains(&(older.name, older.version));
+                let is_pen = had_pen || newest.brush.is_pen();
+                assert_eq!(line.brush.is_pen(), is_pen, "{}", older.name);
+                assert!(!(had_pen && newest.brush.is_pen()), "{}", older.name);
+            }
             assert_eq!(newest.method, OutlineMethod::Strokes, "{}", older.name);
-            assert_eq!(
-                newest.brush.is_pen(),
-                !had_pen && older.name != "pencil",
-                "{}",
-                older.name
-            );
         }
         for preset in PRESETS {
             assert_ne!(
@@ -521,6 +735,16 @@ mod tests {
                 "{}",
                 preset.name
             );
+        }
+    }
+
+    #[test]
+    fn older_versions_draw_all_short_lines() {
+        for older in OLDER {
+            let name = format!("{}@{}", older.name, older.version);
+            let line = Style::preset(&name).expect("a preset").line;
+            let lengths = [line.crease_least, line.least].map(|length| length.value);
+            assert_eq!((line.crease_slack_deg, lengths), (0.0, [0.0; 2]), "{name}");
         }
     }
 

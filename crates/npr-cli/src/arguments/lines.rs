@@ -48,7 +48,8 @@ pub struct LineArguments {
         value_parser = one_of(&Kind::ALL, Kind::name, Kind::meaning)
     )]
     pub kinds: Option<Vec<Kind>>,
-    /// Angle in degrees from which an edge is a crease [default: the style's, 40 unless it says otherwise].
+    /// Angle in degrees from which an edge is a crease, and no other edge is one [default: the style's, 40 unless it
+    /// says otherwise, and creases go on along softer folds]
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = crease_angle)]
     pub crease: Option<f32>,
     /// What that angle lies between [default: the style's, normals unless it says otherwise].

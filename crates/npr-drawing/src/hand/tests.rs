@@ -114,6 +114,28 @@ fn each_line_and_each_copy_sways_for_itself() {
     }
 }
 
+/// The image of a brush lies elsewhere on every copy, and runs on as on the line.
+#[test]
+fn each_copy_has_its_own_place_in_the_image() {
+    let all = drawn(vec![line(1), line(2)], &Hand { copies: 8, ..CALM });
+    let ahead = |stroke: &Stroke| stroke.points[0].u - stroke.points[0].position[0];
+    for strokes in all.chunks(8) {
+        let mut places: Vec<f64> = strokes.iter().map(ahead).collect();
+        places.sort_by(f64::total_cmp);
+        assert!(
+            places.windows(2).all(|two| two[1] - two[0] > 4.0),
+            "{places:?}"
+        );
+        for stroke in strokes {
+            let [first, last] = [&stroke.points[0], &stroke.points[stroke.points.len() - 1]];
+            let along = last.position[0] - first.position[0];
+            // Ends sway and lie beside the line by at most this much each.
+            let most = 2.0 * (CALM.wobble_px + 2.0 * CALM.spread_px);
+            assert!((last.u - first.u - along).abs() < most);
+        }
+    }
+}
+
 /// A line that ends on another one still does once both sway; the other way round, a free end stays.
 #[test]
 fn ends_follow_the_line_that_they_lie_on() {

@@ -1,16 +1,18 @@
 //! How the strokes of a drawing are drawn: where they end, how they thin out, how a hand sways, how they are dashed.
 
 use super::model::check_count;
+use super::options::LineOptions;
 use crate::error::RenderError;
 use npr_drawing::dash::{Dash, cut_to_dashes};
 use npr_drawing::hand::{Hand, draw_by_hand};
 use npr_drawing::overshoot::{Overshoot, move_ends};
 use npr_drawing::pressure::{Curve, Pressure, press_strokes};
+use npr_drawing::stubs::remove_stubs;
 use npr_drawing::taper::{Taper, taper_strokes};
 use npr_stylesheet::{Length, Style, TaperEnds, WidthStop};
 use npr_vector::mesh_lines::run::SPECK_PX;
 use npr_vector::sampled::PartWidth;
-use npr_vector::stroke::Stroke;
+use npr_vector::stroke::{Kind, Stroke};
 
 /// Samples on either side that decide with one whether it is seen.
 const SAMPLE_RADIUS: u32 = 1;
@@ -37,6 +39,8 @@ fn taper_of(style: &Style, px: &dyn Fn(Length) -> f64) -> Taper {
 
 /// What a style makes of strokes in a picture.
 pub(crate) struct Expression {
+    /// Lengths under which creases, and other lines, that end in the open are left out, in pixels.
+    least_px: [f64; 2],
     overshoot: Overshoot,
     pressure: Pressure,
     taper: Taper,
@@ -45,11 +49,23 @@ pub(crate) struct Expression {
 }
 
 impl Expression {
-    /// That of a style in a view with its own pressure, with lengths in pixels as `px` resolves them.
-    pub fn new(style: &Style, [height, dpi, world]: [f32; 3], pressure: Pressure) -> Self {
+    /// That of a style in a view with its own pressure, with lengths in pixels as `px` resolves them. Lines that are
+    /// not smoothed are all drawn, however short.
+    pub fn new(
+        (style, options): (&Style, &LineOptions),
+        [height, dpi, world]: [f32; 3],
+        pressure: Pressure,
+    ) -> Self {
         let px = |length: Length| f64::from(length.to_px(height, dpi, world));
         let hand = &style.line.hand;
         Self {
+            least_px: match options.smooth {
+                true => {
+                    let least = px(style.line.least);
+                    [px(style.line.crease_least).max(least), least]
+                }
+                false => [0.0; 2],
+            },
             overshoot: Overshoot {
                 beyond_px: px(hand.overshoot),
                 short_px: px(hand.undershoot),
@@ -77,6 +93,7 @@ impl Expression {
             ..self.taper
         };
         Self {
+            least_px: self.least_px,
             overshoot: Overshoot {
                 beyond_px: 0.0,
                 short_px: 0.0,
@@ -114,8 +131,8 @@ impl Expression {
 
     /// Draws the visible strokes for which `is_drawn` is true so, in a picture of `size` pixels.
     ///
-    /// Specks go before ends move, as what is short is about lines and not about pens. Tapers follow the ends; copies
-    /// have the tapers of their line; and each copy is dashed for itself.
+    /// Stubs and specks go before ends move, as what is short is about lines and not about pens. Tapers follow the
+    /// ends; copies have the tapers of their line; and each copy is dashed for itself.
     ///
     /// # Errors
     ///
@@ -126,6 +143,15 @@ impl Expression {
         size: [u32; 2],
         is_drawn: impl Fn(&Stroke) -> bool + Sync,
     ) -> Result<(), RenderError> {
+        // Leave out stubs.
+        let [of_creases, of_others] = self.least_px;
+        let least_px = |stroke: &Stroke| match stroke.kind {
+            _ if !is_drawn(stroke) => 0.0,
+            Kind::Crease => of_creases,
+            _ => of_others,
+        };
+        remove_stubs(strokes, size, least_px);
+
         // Move the ends, and thin them.
         let mut taper = self.taper;
         if !self.overshoot.is_none() {

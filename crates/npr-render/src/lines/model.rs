@@ -88,9 +88,9 @@ pub struct LineModel {
     pictures: BTreeMap<String, Picture>,
 }
 
-/// What lines are prepared for: the cosine of the crease angle, as bits, what that angle lies between, and whether
+/// What lines are prepared for: the cosines of the crease angles, as bits, what these lie between, and whether
 /// intersections are wanted.
-type PreparedKey = (u32, CreaseFrom, bool);
+type PreparedKey = ([u32; 2], CreaseFrom, bool);
 
 /// What a drawing is made of besides contours.
 struct Wanted<'a> {
@@ -385,7 +385,7 @@ impl LineModel {
         };
         let is_of_part = |stroke: &Stroke| (stroke.surface as usize) < self.parts.len();
         let pressure = self.pressure_of(style, &projector);
-        let expression = Expression::new(style, self.px(options), pressure);
+        let expression = Expression::new((style, options), self.px(options), pressure);
         let expression = match is_open {
             true => expression.before_sight(),
             false => expression,
@@ -554,7 +554,8 @@ impl LineModel {
         let creases = options.creases();
         let is_on_mesh = !options.method.is_of_pixels();
         let with_crossings = is_on_mesh && options.kinds.has(Kind::Intersection);
-        let key = (creases.cos.to_bits(), creases.from, with_crossings);
+        let angles = [creases.cos, creases.weak_cos].map(f32::to_bits);
+        let key = (angles, creases.from, with_crossings);
         let mut last = self.prepared.lock().unwrap_or_else(PoisonError::into_inner);
         match &*last {
             Some((of, prepared)) if *of == key => Ok(Arc::clone(prepared)),

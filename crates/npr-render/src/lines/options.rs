@@ -51,6 +51,8 @@ pub struct LineOptions {
     pub crease: f32,
     /// What that angle lies between; default the file's normals.
     pub crease_from: CreaseFrom,
+    /// By how much less an edge may fold where a crease goes on along it, in radians; default 0. Of lines on meshes.
+    pub crease_slack: f32,
     /// How contours are found; default along mesh edges.
     pub method: LineSource,
     /// Whether strokes are smoothed, their ends joined, and what is too short to read left out; default true.
@@ -110,6 +112,7 @@ impl LineOptions {
             kinds: KindSet::ALL,
             crease: npr_stylesheet::CREASE_ANGLE_DEG.to_radians(),
             crease_from: CreaseFrom::default(),
+            crease_slack: 0.0,
             method: LineSource::default(),
             smooth: true,
             hidden: false,
@@ -122,7 +125,7 @@ impl LineOptions {
         }
     }
 
-    /// The lines that a style asks for: its kinds, its angle of creases, and that of corners where strokes are cut.
+    /// The lines that a style asks for: its kinds, its angles of creases, and that of corners where strokes are cut.
     ///
     /// The style's own `line.method` is a matter of pictures and plays no part.
     pub fn of_style(style: &Style, size: [u32; 2]) -> Self {
@@ -130,6 +133,7 @@ impl LineOptions {
             kinds: kinds_of(style),
             crease: style.line.crease_angle_deg.to_radians(),
             crease_from: look::creases(style).from,
+            crease_slack: style.line.crease_slack_deg.to_radians(),
             split: Self::split_at(style.line.split_angle_deg),
             potrace: style.line.potrace.path(),
             depth_threshold: style.detect.depth_threshold(),
@@ -139,7 +143,7 @@ impl LineOptions {
 
     /// Which edges are creases.
     pub(crate) fn creases(&self) -> Creases {
-        Creases::over(self.crease, self.crease_from)
+        Creases::with_slack(self.crease, self.crease_slack, self.crease_from)
     }
 
     /// What [`LineOptions::split`] is for an angle in degrees: no line turns by more than 180, which stands for never.

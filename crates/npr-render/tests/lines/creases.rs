@@ -1,7 +1,8 @@
 //! The same creases in frames and in drawings.
 
-use crate::scenes::{SIZE, camera_at, even_style};
+use crate::scenes::{SIZE, add, camera_at, even_style};
 use npr_core::crease::CreaseFrom;
+use npr_core::math;
 use npr_gpu::processor::Processor;
 use npr_mesh::testing::{cylinder, unindexed};
 use npr_render::{
@@ -136,4 +137,99 @@ fn without_normals_every_fold_over_the_angle_is_drawn() {
         }
     }
     assert_eq!(LineOptions::new(SIZE).crease_from, CreaseFrom::Normals);
+}
+
+/// A ridge of three pieces along x, seen from above, whose sides hang down by angles in degrees at its four stations:
+/// a piece folds by the sum of its two.
+fn ridge(angles_deg: [f32; 4]) -> Scene {
+    let stations = angles_deg.iter().zip([-4.5, -1.5, 1.5, 4.5]);
+    let rows = stations.flat_map(|(angle, x)| {
+        let angle = angle.to_radians();
+        let down = -math::sin(angle) / math::cos(angle);
+        [[x, -1.0, down], [x, 0.0, 0.0], [x, 1.0, down]]
+    });
+    let corners = (0..3).flat_map(|piece| [3 * piece, 3 * piece + 1]);
+    let triangles = corners.flat_map(|corner| {
+        [
+            [corner, corner + 3, corner + 1],
+            [corner + 1, corner + 3, corner + 4],
+        ]
+    });
+    let mesh = npr_mesh::Mesh::new(rows.collect(), triangles.collect()).expect("sound");
+    let mut scene = Scene::default();
+    add(&mut scene, "ridge", &mesh);
+    scene
+}
+
+const ABOVE: [f32; 3] = [0.0, 0.0, 12.0];
+
+/// A white picture of creases and of the border around them.
+fn creases_alone(settings: &[&str]) -> Style {
+    let mut style = style("strokes", "normals");
+    let kinds = ["contour", "material", "intersection"];
+    let off = kinds.map(|kind| format!("line.kinds.{kind}=false"));
+    let all = off
+        .iter()
+        .map(String::as_str)
+        .chain(settings.iter().copied());
+    all.chain(["background=#ffffff"])
+        .for_each(|setting| style.set(setting).expect(setting));
+    style
+}
+
+/// The lengths of the creases that a drawing shows, and the pixels of ink of a frame away from the border.
+fn shown(scene: &Scene, settings: &[&str]) -> (Vec<f64>, usize) {
+    let style = creases_alone(settings);
+    let options = LineOptions::of_style(&style, SIZE);
+    let lines = LineModel::new(scene, &LineModelOptions::default()).expect("small");
+    let drawing = lines
+        .draw(&camera_at(ABOVE), &style, &options)
+        .expect("drawn");
+    let model = Model::new(scene).expect("small");
+    let of_model = (&model, LineRenderer::new(&Processor, &lines));
+    let options = RendererOptions::new(SIZE);
+    let mut renderer =
+        Renderer::with_lines(&Processor, of_model, &style, &options).expect("prepared");
+    let frame = renderer.draw(&camera_at(ABOVE)).expect("drawn");
+    let pixels = frame.rgba.chunks_exact(4).enumerate();
+    let [width, height] = SIZE.map(|side| side as usize);
+    let ink = pixels.filter(|(i, pixel)| {
+        let [x, y] = [i % width, i / width];
+        pixel[0] < 100 && x.abs_diff(width / 2) < 95 && y.abs_diff(height / 2) < 12
+    });
+    let creases = drawing
+        .strokes
+        .iter()
+        .filter(|stroke| stroke.kind == Kind::Crease);
+    (creases.map(|stroke| stroke.length()).collect(), ink.count())
+}
+
+#[test]
+fn a_crease_goes_on_along_a_softer_fold_between_two() {
+    let ridge = ridge([25.0, 25.0, 8.0, 42.0]);
+    let (apart, ink_apart) = shown(&ridge, &["line.crease_slack_deg=0"]);
+    let (joined, ink_joined) = shown(&ridge, &["line.crease_slack_deg=15"]);
+    assert!(
+        apart.len() == 2 && joined.len() == 1,
+        "{apart:?} {joined:?}"
+    );
+    let share = apart.iter().sum::<f64>() / joined[0];
+    assert!((0.6..0.73).contains(&share), "{share}");
+    let ink_share = ink_apart as f64 / ink_joined as f64;
+    assert!((0.6..0.75).contains(&ink_share), "{ink_share}");
+}
+
+#[test]
+fn a_short_crease_in_the_open_is_left_out() {
+    let ridge = ridge([8.0, 25.0, 25.0, 8.0]);
+    let (whole, ink) = shown(&ridge, &["line.crease_least=0", "line.least=0"]);
+    let [length] = whole[..] else {
+        panic!("{whole:?}");
+    };
+    assert!(ink as f64 > length);
+    for key in ["line.crease_least", "line.least"] {
+        let least = |px: f64| shown(&ridge, &[&format!("{key}='{px}px'")]);
+        assert_eq!(least(1.1 * length), (vec![], 0), "{key}");
+        assert_eq!(least(0.9 * length), (whole.clone(), ink), "{key}");
+    }
 }

@@ -341,9 +341,11 @@ pub(super) const ENTRIES: &[Entry] = &[
     of_methods(&["line.crease_angle_deg", "line.crease_from"], |c| {
         !c.is_drawn_by(&[Shape, Okuya, Filter, FilterHull, Strokes, Potrace])
     }),
-    of_methods(&["line.split_angle_deg"], |c| {
-        !c.is_drawn_by(&[Strokes, Potrace])
-    }),
+    of_methods(&["line.crease_slack_deg"], |c| !c.is_drawn_by(&[Strokes])),
+    of_methods(
+        &["line.split_angle_deg", "line.crease_least", "line.least"],
+        |c| !c.is_drawn_by(&[Strokes, Potrace]),
+    ),
     entry(
         &["line.split_angle_deg"],
         |c| c.is_frame() && !c.is_drawn_by(&[Strokes]) && !c.shows_cuts(),

@@ -37,14 +37,16 @@ const HAIR_PX: f64 = 12.0;
 /// Runs without doubles; order is kept. Runs must be sampled about evenly.
 ///
 /// What is left of a run is cut by majority, so that noise leaves no shreds, but not where it holds two ends
-/// together: a short bare part between the ends of two lines stays, however little it is. O(samples) for lines that
+/// together: a short bare part between the ends of two lines stays, however little it is, and so does a hair from one
+/// end to the other. O(samples) for lines that
 /// do not crowd in one place.
 pub fn suppress(runs: Vec<Run>) -> Vec<Run> {
     let mut taken = Taken::new();
     let mut kept: Vec<Vec<Run>> = vec![Vec::new(); runs.len()];
     for (index, length) in longest_first(&runs) {
         let run = &runs[index];
-        if length < HAIR_PX && !run.closed && taken.surrounds(run) {
+        let is_hair = length < HAIR_PX && !run.closed && taken.surrounds(run);
+        if is_hair && !taken.joins_ends(run) {
             continue;
         }
         let doubled = taken.doubled(run, index);
@@ -451,6 +453,17 @@ mod tests {
                 42.511884490797264,
             ),
         ]);
+    }
+
+    #[test]
+    fn a_hair_that_holds_two_ends_together_stays() {
+        let ends = [
+            line(0, [0.0, 0.0], [40.0, 0.0]),
+            line(1, [44.0, -2.0], [80.0, 20.0]),
+        ];
+        let with = |hair: Run| suppress([&ends[..], &[hair]].concat()).len();
+        assert_eq!(with(line(2, [40.0, 0.0], [44.0, -2.0])), 3);
+        assert_eq!(with(line(2, [20.0, 2.0], [24.0, 0.0])), 2);
     }
 
     #[test]

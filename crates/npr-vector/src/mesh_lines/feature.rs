@@ -14,11 +14,17 @@ use rayon::prelude::*;
 /// How straight two edges must run on for a line to pass a point where more than two meet: cosine of the bend.
 const STRAIGHT_COS: f64 = 0.5;
 
+/// The same where a crease goes on along edges that fold less.
+const GO_ON_COS: f64 = 0.7;
+
 /// All feature lines of a shape, linked along equal kinds of one object.
 ///
-/// At a point where two edges of a kind meet the line goes on; where more meet, through the straightest pairs.
-/// Edges between faces that are wound against each other are in the graph without a kind: in some views they are
-/// contours. O(edges + features log features).
+/// At a point where two edges of a kind meet the line goes on; where more meet, through the straightest pairs. Where a
+/// crease would end alone it goes on along edges that fold by the lower angle, as long as they run on within 45 degrees
+/// and if they lead to another feature: the hysteresis of [Canny 1986] along lines of a mesh. Differs: what would end
+/// in the open is not drawn. Edges between faces that
+/// are wound against each other are in the graph without a kind: in some views they are contours. O(edges + features
+/// log features).
 pub fn features(shape: &HalfEdgeMesh, creases: impl Into<Creases>) -> CurveGraph {
     let creases = creases.into();
     let candidates: Vec<(u32, u32)> = (0..shape.edge_count() as u32)
@@ -27,7 +33,108 @@ pub fn features(shape: &HalfEdgeMesh, creases: impl Into<Creases>) -> CurveGraph
         .filter_map(|edge| static_flags(shape, edge, creases).map(|flags| (edge, flags)))
         .collect();
     let mates = mates(shape, &candidates);
+    if creases.weak_cos <= creases.cos {
+        return chain(shape, &candidates, &mates);
+    }
+    let (candidates, mates) = go_on(shape, creases, candidates, mates);
     chain(shape, &candidates, &mates)
+}
+
+/// The candidates and mates, with those of edges along which creases go on.
+fn go_on(
+    shape: &HalfEdgeMesh,
+    creases: Creases,
+    mut candidates: Vec<(u32, u32)>,
+    mut mates: Vec<u32>,
+) -> (Vec<(u32, u32)>, Vec<u32>) {
+    // Take the edges that fold less.
+    let strong_count = candidates.len();
+    let folds_less = |edge: &u32| {
+        shape.fold_cos(*edge, creases.from) < creases.weak_cos
+            && static_flags(shape, *edge, creases).is_none()
+    };
+    let weak: Vec<(u32, u32)> = (0..shape.edge_count() as u32)
+        .into_par_iter()
+        .with_min_len(8192)
+        .filter(folds_less)
+        .map(|edge| (edge, KindSet::CREASE))
+        .collect();
+    candidates.extend(weak);
+    mates.resize(2 * candidates.len(), NONE);
+
+    // Pair them where a crease would end, and with each other where no feature is.
+    let mut meetings: Vec<(u32, u32, u32)> = (0..2 * candidates.len() as u32)
+        .map(|end| {
+            let (edge, flags) = candidates[end as usize / 2];
+            let vertex = shape.ends(edge)[end as usize % 2];
+            (vertex, group_of(shape, edge, flags), end)
+        })
+        .collect();
+    meetings.par_sort_unstable();
+    for at_vertex in meetings.chunk_by(|a, b| a.0 == b.0) {
+        let strong = |meeting: &&(u32, u32, u32)| (meeting.2 as usize) < 2 * strong_count;
+        if at_vertex.iter().filter(strong).count() <= 1 {
+            for meeting in at_vertex.chunk_by(|a, b| a.1 == b.1) {
+                pair_straightest(shape, &candidates, meeting, GO_ON_COS, &mut mates);
+            }
+        }
+    }
+
+    // Keep those along which a crease comes to another feature.
+    let vertex_of = |end: u32| shape.ends(candidates[end as usize / 2].0)[end as usize % 2];
+    let mut has_feature = vec![false; shape.positions.len()];
+    for end in 0..2 * strong_count as u32 {
+        has_feature[vertex_of(end) as usize] = true;
+    }
+    let mut is_kept = vec![false; candidates.len()];
+    is_kept[..strong_count].fill(true);
+    for start in 0..2 * strong_count {
+        let mut way = Vec::new();
+        let mut next = mates[start];
+        let mut is_there = false;
+        while next != NONE && !is_there && !is_kept[next as usize / 2] {
+            way.push(next as usize / 2);
+            is_there = has_feature[vertex_of(next ^ 1) as usize];
+            next = mates[next as usize ^ 1];
+        }
+        if is_there {
+            way.into_iter()
+                .for_each(|candidate| is_kept[candidate] = true);
+        }
+    }
+    for end in 0..mates.len() {
+        let mate = mates[end];
+        if mate != NONE && !(is_kept[end / 2] && is_kept[mate as usize / 2]) {
+            mates[end] = NONE;
+        }
+    }
+    retain(&candidates, &mates, &is_kept)
+}
+
+/// The candidates that are kept, with their mates, which are kept too.
+fn retain(
+    candidates: &[(u32, u32)],
+    mates: &[u32],
+    is_kept: &[bool],
+) -> (Vec<(u32, u32)>, Vec<u32>) {
+    let mut count = 0;
+    let places: Vec<u32> = is_kept
+        .iter()
+        .map(|is_kept| {
+            count += u32::from(*is_kept);
+            count.wrapping_sub(1)
+        })
+        .collect();
+    let moved = |mate: u32| match mate {
+        NONE => NONE,
+        mate => 2 * places[mate as usize / 2] + mate % 2,
+    };
+    let kept = || (0..candidates.len()).filter(|k| is_kept[*k]);
+    let ends = kept().flat_map(|k| [2 * k, 2 * k + 1]);
+    (
+        kept().map(|k| candidates[k]).collect(),
+        ends.map(|end| moved(mates[end])).collect(),
+    )
 }
 
 /// The flags that an edge has in every view; `None` where it is no line in any.
@@ -82,7 +189,7 @@ fn mates(shape: &HalfEdgeMesh, candidates: &[(u32, u32)]) -> Vec<u32> {
         match meeting {
             [_] => {}
             [(.., a), (.., b)] => pair(&mut mates, *a, *b),
-            _ => pair_straightest(shape, candidates, meeting, &mut mates),
+            _ => pair_straightest(shape, candidates, meeting, STRAIGHT_COS, &mut mates),
         }
     }
     mates
@@ -105,6 +212,7 @@ fn pair_straightest(
     shape: &HalfEdgeMesh,
     candidates: &[(u32, u32)],
     meeting: &[(u32, u32, u32)],
+    least_cos: f64,
     mates: &mut [u32],
 ) {
     // A fan of thousands would cost its square; no drawing needs its lines to pass through.
@@ -119,7 +227,7 @@ fn pair_straightest(
     for i in 0..meeting.len() {
         for j in i + 1..meeting.len() {
             let bend = -away[i].dot(away[j]);
-            if bend > STRAIGHT_COS {
+            if bend > least_cos {
                 pairs.push((bend, i, j));
             }
         }

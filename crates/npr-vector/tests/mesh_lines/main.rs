@@ -1,5 +1,6 @@
 //! Lines of meshes: what must hold on every mesh, from every eye.
 
+mod creases_going_on;
 mod crowds;
 mod lines;
 mod polylines;
