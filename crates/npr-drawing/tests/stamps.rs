@@ -79,7 +79,7 @@ const DENSE: Stamps = Stamps {
     length: 1.0,
     jitter: 0.2,
     angle: 0.0,
-    turn: 3.14,
+    turn: std::f64::consts::PI,
     rakes: true,
     scatter: 0.0,
     part: (None, 0.25),
