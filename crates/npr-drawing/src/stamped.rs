@@ -195,13 +195,20 @@ pub(crate) fn stamp(
         })
         .collect();
 
-    // Tell their images apart, as finely as leaves few of them.
+    // Tell their images apart, as finely as leaves few of them. Strokes with a stamp have a surface.
+    let first_like = |lay: &BrushLay| brushes.lays.iter().position(|other| other == lay);
+    let alike: Vec<u32> = brushes
+        .lays
+        .iter()
+        .map(|lay| first_like(lay).unwrap_or(0) as u32)
+        .collect();
     let all = || drawing.strokes.iter().zip(&prints);
     let keys_by = |steps: &Steps| {
         let mut keys = BTreeMap::new();
         for (stroke, prints) in all() {
             for print in prints.iter().flatten() {
-                keys.insert(Key::of(print, stroke, brushes, steps), 0u32);
+                let surface = alike[stroke.surface as usize];
+                keys.insert(Key::of(print, surface, steps), 0u32);
                 if keys.len() > IMAGES_MAX && steps != STEPS.last().unwrap_or(&STEPS[0]) {
                     return None;
                 }
@@ -226,7 +233,7 @@ pub(crate) fn stamp(
     let of_strokes = drawing.strokes.par_iter().zip(&prints);
     let of_strokes = of_strokes.map(|(stroke, prints)| {
         let placed = |print: &Print| {
-            let key = Key::of(print, stroke, brushes, &steps);
+            let key = Key::of(print, alike[stroke.surface as usize], &steps);
             Stamp {
                 corners: bake::corners(print, &key, &steps),
                 image: keys[&key],
@@ -318,10 +325,9 @@ struct Key {
 const PLACES: f32 = 4096.0;
 
 impl Key {
-    fn of(print: &Print, stroke: &Stroke, brushes: &StrokeBrushes, steps: &Steps) -> Self {
+    /// What a stamp of a stroke on a surface shows.
+    fn of(print: &Print, surface: u32, steps: &Steps) -> Self {
         let [a, b] = &print.ends;
-        let own = brushes.lay_of(stroke);
-        let same = brushes.lays.iter().position(|lay| own == Some(*lay));
         let length = f32::hypot(b.px[0] - a.px[0], b.px[1] - a.px[1]);
         let half = a.half_width.max(LEAST_HALF_PX);
         let in_steps = |v: f32, count: f32| (v * count).round().clamp(1.0, count) as u32;
@@ -332,7 +338,7 @@ impl Key {
         let [red, green, blue, _] = a.color.to_le_bytes();
         Self {
             form: print.form,
-            surface: same.unwrap_or(0) as u32,
+            surface,
             pressure: in_steps(a.pressure, steps.pressure),
             half: (npr_core::math::log2(half) * steps.size).round() as i32,
             length: match print.form {
