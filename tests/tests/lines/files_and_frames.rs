@@ -140,7 +140,6 @@ fn stamped_files_have_the_ink_of_frames() {
         let [frame, file] = drawn(&style, Paths::Stamps);
         let [frame_ink, file_ink] = [&frame, &file].map(|ink| ink.iter().sum::<f64>());
         let [_, pen] = drawn(&style, Paths::Outline);
-        let pen_ink: f64 = pen.iter().sum();
         assert!(
             (file_ink / frame_ink - 1.0).abs() < 0.05,
             "{tip} {mapping}: {file_ink} {frame_ink}"
