@@ -29,8 +29,8 @@ struct StoredImage {
 }
 
 impl Brushes {
-    /// Gives each of the `parts` on which strokes are found, where `is_stroked` is true of its look, its brush, and puts
-    /// the images into the texture store, each once; a pixel has so many hills of the paper.
+    /// Gives each of the `parts` on which strokes are found, where `is_stroked` is true of its look, its brush, and
+    /// puts the images into the texture store, each once; a pixel has so many hills of the paper.
     pub fn new(
         parts: &[PartInfo],
         style: &Style,

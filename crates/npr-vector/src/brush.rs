@@ -71,8 +71,8 @@ impl Brushes<'_> {
         (brush.texels_across > 0).then_some(brush)
     }
 
-    /// Share of ink, 0 to 1, that its brush leaves at a place of a stroke of one piece, or of a stamp; 1 where the brush
-    /// has an even ink. O(1).
+    /// Share of ink, 0 to 1, that its brush leaves at a place of a stroke of one piece, or of a stamp; 1 where the
+    /// brush has an even ink. O(1).
     pub fn ink_alone(&self, ends: &[InkPoint; 2], px: [f32; 2]) -> f32 {
         let piece = BrushedPiece {
             ends: *ends,
