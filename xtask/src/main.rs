@@ -62,6 +62,8 @@ usage: cargo xtask COMMAND
   measure device [ARGS]
                     count what a frame asks of a graphics device, in release, predict its time on cards, and keep the
                     tables of the usual frame; ARGS: --model FILE, --ball TRIANGLES, --preset NAME, --size WxH
+  measure viewers   measure how much files of lines differ from frames in resvg, Chromium and Inkscape, and keep the
+                    tables
   measure trace     measure tracings beside potrace, vtracer and OpenCV, in release, and keep the tables
   gallery [PRESETS] draw every preset, or those named, on the shared models into target/gallery
   licences          check that everything that is linked may be linked by everybody
@@ -109,6 +111,7 @@ fn dispatch(root: &Path, words: &[&str]) -> Option<Result<()>> {
         ["measure", "outline-colour"] => measure::outline_color(root),
         ["measure", "dashes", rest @ ..] => measure::dashes(root, rest),
         ["measure", "device", rest @ ..] => measure::device(root, rest),
+        ["measure", "viewers"] => measure::viewers(root),
         ["measure", "trace"] => measure::trace(root),
         ["gallery", presets @ ..] => gallery::draw(root, presets),
         ["passes"] => passes::write(root),

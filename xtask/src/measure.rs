@@ -32,9 +32,26 @@ const DEVICE: &str = "benches/results/device_model.md";
 /// Where the tables of tracings are kept.
 const TRACE: &str = "benches/results/trace.md";
 
-/// What the tables of tracings need: a program, arguments with which it only says that it is there, and whence it
-/// comes.
-const TRACE_NEEDS: [(&str, &[&str], &str); 4] = [
+/// Where the tables of files in other viewers are kept.
+const VIEWERS: &str = "benches/results/viewers.md";
+
+/// A program, arguments with which it only says that it is there, and whence it comes.
+type Need = (&'static str, &'static [&'static str], &'static str);
+
+/// What the tables of files in other viewers need.
+const VIEWERS_NEEDS: [Need; 4] = [
+    ("resvg", &["--version"], "cargo install resvg"),
+    ("chromium", &["--version"], "apt: chromium"),
+    ("inkscape", &["--version"], "apt: inkscape"),
+    (
+        "python3",
+        &["-c", "import numpy, PIL"],
+        "with numpy and pillow",
+    ),
+];
+
+/// What the tables of tracings need.
+const TRACE_NEEDS: [Need; 4] = [
     ("/usr/bin/time", &["--version"], "apt: time"),
     ("potrace", &["--version"], "apt: potrace"),
     ("resvg", &["--version"], "cargo install resvg"),
@@ -104,23 +121,26 @@ pub fn device(root: &Path, arguments: &[&str]) -> Result<()> {
     Ok(())
 }
 
+/// Measures how much files of lines differ from frames in other viewers, prints the tables and keeps them.
+pub fn viewers(root: &Path) -> Result<()> {
+    check_needs(&VIEWERS_NEEDS)?;
+    let models = root.join("../shared/assets/models");
+    ensure!(models.is_dir(), "there is no {}", models.display());
+    let mut program = Command::new("python3");
+    program
+        .arg(root.join("benches/peers/viewers.py"))
+        .arg(release_npr(root)?)
+        .arg(models);
+    write_whole(&root.join(VIEWERS), &printed(program)?)
+}
+
 /// Measures tracings beside other programs, prints the tables and keeps them.
 pub fn trace(root: &Path) -> Result<()> {
-    let missing: Vec<String> = TRACE_NEEDS
-        .iter()
-        .filter(|(program, arguments, _)| !is_there(program, arguments))
-        .map(|(program, _, whence)| format!("{program} ({whence})"))
-        .collect();
-    ensure!(missing.is_empty(), "missing: {}", missing.join(", "));
+    check_needs(&TRACE_NEEDS)?;
     let shared = root.join("../shared");
     let bitmaps = shared.join("assets/bitmaps");
     ensure!(bitmaps.is_dir(), "there is no {}", bitmaps.display());
-    let build = ["build", "--release", "-p", "npr-cli"];
-    let status = cargo(root).args(build).status();
-    ensure!(
-        status.context("cannot run cargo")?.success(),
-        "npr does not build"
-    );
+    let npr = release_npr(root)?;
     let made = tempfile::tempdir()?;
     let maker = Command::new("python3")
         .arg(shared.join("peers/make_bitmaps.py"))
@@ -128,12 +148,10 @@ pub fn trace(root: &Path) -> Result<()> {
         .stdout(Stdio::null())
         .status()?;
     ensure!(maker.success(), "make_bitmaps.py failed: {maker}");
-    let target = std::env::var_os("CARGO_TARGET_DIR");
-    let target = target.map_or_else(|| root.join("target"), PathBuf::from);
     // As it lies where it is installed: what a linker wrote piece by piece lies in small pages of the system's cache
     // and starts slower.
     let installed = made.path().join("npr");
-    std::fs::copy(target.join("release/npr"), &installed)?;
+    std::fs::copy(npr, &installed)?;
     let mut program = Command::new("python3");
     program
         .arg(root.join("benches/peers/trace.py"))
@@ -142,6 +160,30 @@ pub fn trace(root: &Path) -> Result<()> {
         .arg(made.path())
         .args([bitmaps.join("edge_cases"), bitmaps]);
     write_whole(&root.join(TRACE), &printed(program)?)
+}
+
+/// Fails where a program is missing, and names all that are.
+fn check_needs(needs: &[Need]) -> Result<()> {
+    let missing: Vec<String> = needs
+        .iter()
+        .filter(|(program, arguments, _)| !is_there(program, arguments))
+        .map(|(program, _, whence)| format!("{program} ({whence})"))
+        .collect();
+    ensure!(missing.is_empty(), "missing: {}", missing.join(", "));
+    Ok(())
+}
+
+/// The command, built in release.
+fn release_npr(root: &Path) -> Result<PathBuf> {
+    let build = ["build", "--release", "-p", "npr-cli"];
+    let status = cargo(root).args(build).status();
+    ensure!(
+        status.context("cannot run cargo")?.success(),
+        "npr does not build"
+    );
+    let target = std::env::var_os("CARGO_TARGET_DIR");
+    let target = target.map_or_else(|| root.join("target"), PathBuf::from);
+    Ok(target.join("release/npr"))
 }
 
 /// Whether a program runs with some arguments.

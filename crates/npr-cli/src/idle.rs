@@ -139,6 +139,8 @@ struct Lines<'a> {
     args: &'a LinesArguments,
     format: LineFormat,
     facts: Facts,
+    /// Whether brushes draw any strokes.
+    has_brushes: bool,
 }
 
 impl Lines<'_> {
@@ -161,6 +163,12 @@ fn line_entries<'a>() -> Vec<Entry<Lines<'a>>> {
             |c| c.args.sheet.svg != PathForm::Outline,
             |c| c.format == LineFormat::Json,
             "the file holds points, and no paths",
+        ),
+        entry(
+            "--svg",
+            |c| c.args.sheet.svg == PathForm::Stamps,
+            |c| !c.has_brushes,
+            "a pen draws all strokes, as line.brush says",
         ),
         entry(
             "--fill",
@@ -189,12 +197,14 @@ fn line_entries<'a>() -> Vec<Entry<Lines<'a>>> {
     ]
 }
 
-/// The warnings about options of `npr lines` that have no effect.
-pub fn of_lines(job: &LineJob<'_>, facts: Facts) -> Vec<String> {
+/// The warnings about options of `npr lines` that have no effect, where `has_brushes` is whether brushes draw any
+/// strokes.
+pub fn of_lines(job: &LineJob<'_>, facts: Facts, has_brushes: bool) -> Vec<String> {
     let case = Lines {
         args: job.args,
         format: job.format,
         facts,
+        has_brushes,
     };
     reported(&line_entries(), &case)
 }

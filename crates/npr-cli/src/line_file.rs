@@ -5,7 +5,7 @@ use crate::encoder;
 use crate::fault::{Exit, Fault};
 use crate::line_job::LineJob;
 use npr_core::budget::Budget;
-use npr_drawing::artwork::ArtworkOptions;
+use npr_drawing::artwork::{ArtworkOptions, STAMPS_LIMIT, StrokeBrushes, stamp_count};
 use npr_drawing::drawing::rasterise;
 use npr_drawing::json::write_json;
 use npr_drawing::lettering::Lettered;
@@ -16,14 +16,23 @@ use npr_render::{Drawing, RenderError};
 /// Memory for a pixel of a PNG file, in bytes: canvas, picture and file together.
 const BYTES_PER_PIXEL: usize = 12;
 
-/// The bytes of the file that a job asks for, with `lettering` over its lines.
+/// The bytes of the file that a job asks for, with its lines drawn by `brushes`, and `lettering` over them.
 pub fn encode(
     job: &LineJob<'_>,
     drawing: &Drawing,
+    brushes: StrokeBrushes,
     lettering: Vec<Lettered>,
 ) -> Result<Vec<u8>, Fault> {
+    if stamp_count(drawing, &brushes) > STAMPS_LIMIT {
+        let error = RenderError::TooMany {
+            what: "stamps of brushes",
+            limit: STAMPS_LIMIT,
+        };
+        return Err(error.into());
+    }
     let artwork = ArtworkOptions {
         lettering,
+        brushes,
         ..job.artwork.clone()
     };
     match job.format {

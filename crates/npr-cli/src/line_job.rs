@@ -88,13 +88,19 @@ impl<'a> LineJob<'a> {
 }
 
 impl LineJob<'_> {
+    /// Whether the file holds the strokes of brushes as stamps.
+    pub fn lays_brushes(&self) -> bool {
+        self.artwork.paths == Paths::Stamps && self.format != LineFormat::Json
+    }
+
     /// The occasion that decides which keys of the style have an effect.
     pub fn occasion(&self, scene: Facts) -> Occasion {
         let source = self.options.method;
         let form = match (self.format, self.artwork.paths) {
             (LineFormat::Json, _) => LineForm::Data,
             (_, Paths::Centreline) => LineForm::Centrelines,
-            _ => LineForm::Ink,
+            (_, Paths::Stamps) => LineForm::Stamps,
+            (_, Paths::Outline) => LineForm::Ink,
         };
         let fill = self.options.fill;
         Occasion {
@@ -227,7 +233,7 @@ fn options(args: &LinesArguments, style: &Style) -> LineOptions {
         smooth: *smooth == Switch::On,
         hidden: *hidden != HiddenLines::None,
         // Smoke needs more than its outline, except on a pen plotter.
-        fill: *fill || args.is_smoke() && args.sheet.svg == PathForm::Outline,
+        fill: *fill || args.is_smoke() && args.sheet.svg != PathForm::Centreline,
         dpi: args
             .sheet
             .page
@@ -254,6 +260,7 @@ fn artwork(args: &LinesArguments, style: &Style) -> ArtworkOptions {
     let paths = match args.sheet.svg {
         PathForm::Outline => Paths::Outline,
         PathForm::Centreline => Paths::Centreline,
+        PathForm::Stamps => Paths::Stamps,
     };
     ArtworkOptions {
         paths,

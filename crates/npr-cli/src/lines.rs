@@ -18,6 +18,7 @@ use crate::viewpoint;
 use crate::volume::{self, Order};
 use npr_core::camera::Camera;
 use npr_core::geometry::Part;
+use npr_drawing::artwork::StrokeBrushes;
 use npr_gpu::engine::{Engine, PassTime};
 use npr_render::{
     Drawing, Kind, LineModel, LineModelOptions, LineRenderer, LineSource, Model, facts_of,
@@ -78,7 +79,9 @@ fn draw(job: &LineJob<'_>, progress: &mut Progress) -> Result<Drawn<LineFrame>, 
     });
     let view = camera.view(drawing.size, lines.bounds());
     let lettering = job.lettering.placed(&view, job.options.dpi);
-    let bytes = progress.step("encode", || line_file::encode(job, drawing, lettering))?;
+    let bytes = progress.step("encode", || {
+        line_file::encode(job, drawing, model.brushes, lettering)
+    })?;
     progress.step("write", || job.output.write(&bytes))?;
     Ok(drawn)
 }
@@ -88,6 +91,8 @@ struct Prepared {
     lines: LineModel,
     /// The model that the background is drawn from, where lines adapt to it.
     behind: Option<Model>,
+    /// What the strokes of the file are drawn with.
+    brushes: StrokeBrushes,
 }
 
 impl Prepared {
@@ -171,12 +176,17 @@ fn prepare(job: &LineJob<'_>, progress: &mut Progress) -> Result<Prepared, Fault
     })?;
     let facts = facts_of(&loaded.scene, smoke.is_some());
     model.set_smoke(smoke);
-    if job.look.style.line_paint_flags() & Part::LINE_TEXTURE != 0 {
+    let is_painted = job.look.style.line_paint_flags() & Part::LINE_TEXTURE != 0;
+    if is_painted || job.lays_brushes() {
         model.set_pictures(
             job.look
                 .pictures(&job.args.drawing.limits.limits(), external)?,
         );
     }
+    let brushes = match job.lays_brushes() {
+        true => model.brushes(&job.look.style, &job.options)?,
+        false => StrokeBrushes::default(),
+    };
     let behind = match job.backdrop {
         Some(_) => Some(progress.step("prepare", || {
             Model::cached(&loaded.scene, job.cache.as_deref())
@@ -186,7 +196,7 @@ fn prepare(job: &LineJob<'_>, progress: &mut Progress) -> Result<Prepared, Fault
     progress.suspend(|| {
         warn_of(job, &model, reported.notices.iter());
         let keys = job.look.notices(&job.occasion(facts));
-        let options = idle::of_lines(job, facts);
+        let options = idle::of_lines(job, facts, !brushes.all.is_empty());
         message::warn_all(
             job.args.drawing.quiet,
             keys.iter().chain(&options).chain(&of_volumes),
@@ -195,6 +205,7 @@ fn prepare(job: &LineJob<'_>, progress: &mut Progress) -> Result<Prepared, Fault
     Ok(Prepared {
         lines: model,
         behind,
+        brushes,
     })
 }
 

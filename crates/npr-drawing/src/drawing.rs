@@ -1,11 +1,13 @@
 //! Drawings as pictures: the shapes that files hold, rasterised with antialiased edges.
 
-use crate::artwork::{Artwork, ArtworkOptions, DASH, Mark, Paint, REGION_SEAM_PX, arrange};
+use crate::artwork::{
+    Artwork, ArtworkOptions, DASH, Mark, Paint, REGION_SEAM_PX, StampImage, arrange,
+};
 use kurbo::PathEl;
 use npr_vector::stroke::Drawing;
 use tiny_skia::{
-    Color, FillRule, LineCap, LineJoin, Path, PathBuilder, Pixmap, PremultipliedColorU8,
-    StrokeDash, Transform,
+    Color, ColorU8, FillRule, FilterQuality, LineCap, LineJoin, Path, PathBuilder, Pixmap,
+    PixmapPaint, PremultipliedColorU8, StrokeDash, Transform,
 };
 
 /// The drawing as pixels: rows from the top, sRGB bytes with straight alpha.
@@ -34,8 +36,15 @@ fn paint(artwork: &Artwork, size: [u32; 2]) -> Vec<u8> {
         .iter()
         .flat_map(|layer| &layer.groups)
         .flat_map(|group| &group.marks);
+    let images: Vec<Option<Pixmap>> = artwork.images.iter().map(pixels_of_image).collect();
     for mark in marks {
-        paint_mark(mark, &mut pixels, Transform::identity());
+        match mark.paint {
+            Paint::Image(number) => {
+                let image = images.get(number as usize);
+                paint_image(mark, image.and_then(Option::as_ref), &mut pixels);
+            }
+            _ => paint_mark(mark, &mut pixels, Transform::identity()),
+        }
     }
 
     // Divide colours by their alpha again.
@@ -92,7 +101,7 @@ fn pixels_of(marks: &[Mark], size: [u32; 2]) -> Option<([u32; 2], [u32; 2])> {
         .filter(|mark| !mark.path.is_empty())
         .map(|mark| {
             let half = match mark.paint {
-                Paint::Ink => 0.0,
+                Paint::Ink | Paint::Image(_) => 0.0,
                 Paint::Region => REGION_SEAM_PX,
                 Paint::Line(width) | Paint::Dashes(width) => 0.5 * width,
             };
@@ -148,6 +157,8 @@ fn paint_mark(mark: &Mark, pixels: &mut Pixmap, place: Transform) {
     let mut fill = |rule| pixels.fill_path(&path, &paint, rule, place, None);
     let width = match mark.paint {
         Paint::Ink => return fill(FillRule::Winding),
+        // Artwork alone has images.
+        Paint::Image(_) => return,
         Paint::Region => {
             fill(FillRule::EvenOdd);
             if mark.color[3] < 255 {
@@ -170,6 +181,32 @@ fn paint_mark(mark: &Mark, pixels: &mut Pixmap, place: Transform) {
         ..tiny_skia::Stroke::default()
     };
     pixels.stroke_path(&path, &paint, &stroke, place, None);
+}
+
+/// The image of a brush as pixels; `None` where it has none.
+fn pixels_of_image(image: &StampImage) -> Option<Pixmap> {
+    let mut pixels = Pixmap::new(image.size[0], image.size[1])?;
+    let [r, g, b] = image.color;
+    for (pixel, alpha) in pixels.pixels_mut().iter_mut().zip(&image.alpha) {
+        *pixel = ColorU8::from_rgba(r, g, b, *alpha).premultiply();
+    }
+    Some(pixels)
+}
+
+/// Lays an image where a mark lies.
+fn paint_image(mark: &Mark, image: Option<&Pixmap>, pixels: &mut Pixmap) {
+    let (Some(image), Some(place)) = (image, mark.image_place()) else {
+        return;
+    };
+    let [a, b, c, d, e, f] = place.as_coeffs().map(|v| v as f32);
+    let [width, height] = [image.width(), image.height()].map(|side| side as f32);
+    let place = Transform::from_row(a / width, b / width, c / height, d / height, e, f);
+    let paint = PixmapPaint {
+        opacity: f32::from(mark.color[3]) / 255.0,
+        quality: FilterQuality::Bilinear,
+        ..PixmapPaint::default()
+    };
+    pixels.draw_pixmap(0, 0, image.as_ref(), &paint, place, None);
 }
 
 fn path_of(mark: &Mark) -> Option<Path> {

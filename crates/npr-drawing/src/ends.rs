@@ -135,15 +135,14 @@ fn ends_of<'a>(strokes: &'a [Stroke], lengths: &'a [f64]) -> impl Iterator<Item 
             (stroke.points.first(), 0.0),
             (stroke.points.last(), *length),
         ];
-        let places = (0..).zip(ends).filter_map(move |(side, (point, way))| {
+        (0..).zip(ends).filter_map(move |(side, (point, way))| {
             Some(Place {
                 stroke: number,
                 number: side,
                 way,
                 position: point?.position,
             })
-        });
-        places
+        })
     })
 }
 

@@ -46,7 +46,7 @@ pub(crate) struct Laid {
     pub start: f64,
     pub per_px: f64,
     /// Half width at which the brush is pressed down fully.
-    full: f64,
+    pub full: f64,
     /// Length of a ring, in pixels; 0 of an open stroke.
     around: f64,
 }
@@ -91,10 +91,35 @@ impl Laid {
     fn pressure(&self, half_width: f64) -> f32 {
         (half_width / self.full).clamp(0.0, 1.0).sqrt() as f32
     }
+
+    /// A point of the stroke with its width and pressure, in its own colour or else in `own`; nearness and `u` are 0.
+    pub fn inked(&self, point: &StrokePoint, own: [u8; 4]) -> InkPoint {
+        // No number is no width.
+        let half_width = half_width(point).max(0.0);
+        InkPoint {
+            px: point.position.map(|at| at as f32),
+            half_width: half_width as f32,
+            nearness: 0.0,
+            color: u32::from_le_bytes(point.color.unwrap_or(own)),
+            flags: self.flags,
+            u: 0.0,
+            pressure: self.pressure(half_width),
+        }
+    }
+}
+
+/// Half the width of a stroke at a point, at most [`WIDEST`].
+fn half_width(point: &StrokePoint) -> f64 {
+    (0.5 * point.width).clamp(0.0, WIDEST)
+}
+
+/// The largest half width of a stroke, in pixels.
+pub(crate) fn widest(stroke: &Stroke) -> f64 {
+    stroke.points.iter().map(half_width).fold(0.0, f64::max)
 }
 
 /// Removes points that lie so near to the one before that a piece between them has no direction; the ends stay.
-fn keep_apart(points: &mut Vec<StrokePoint>) {
+pub(crate) fn keep_apart(points: &mut Vec<StrokePoint>) {
     let Some(last) = points.last().copied() else {
         return;
     };
@@ -126,8 +151,7 @@ pub fn ink_points(
     let strokes = drawing.strokes.par_iter().with_min_len(64);
     let of_stroke = |stroke: &Stroke| {
         // Cut it to the picture.
-        let half = |point: &StrokePoint| (0.5 * point.width).clamp(0.0, WIDEST);
-        let widest = stroke.points.iter().map(half).fold(0.0, f64::max);
+        let widest = widest(stroke);
         let parts = match stroke.is_visible() && widest > 0.0 {
             true => clip_stroke(stroke, drawing.size.map(f64::from), widest + 1.0),
             false => Vec::new(),
@@ -150,18 +174,9 @@ pub fn ink_points(
             if has_image {
                 keep_apart(&mut points);
             }
-            let inked = move |point: &StrokePoint| {
-                // No number is no width.
-                let half_width = half(point).max(0.0);
-                InkPoint {
-                    px: point.position.map(|at| at as f32),
-                    half_width: half_width as f32,
-                    nearness: nearness(point.depth),
-                    color: u32::from_le_bytes(point.color.unwrap_or(own)),
-                    flags: laid.flags,
-                    u: 0.0,
-                    pressure: laid.pressure(half_width),
-                }
+            let inked = move |point: &StrokePoint| InkPoint {
+                nearness: nearness(point.depth),
+                ..laid.inked(point, own)
             };
             if let Some(stamps) = stamps {
                 return stamps.along(&points, is_closed, id, &inked);

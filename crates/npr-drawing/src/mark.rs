@@ -1,6 +1,6 @@
 //! Shapes of one colour, with which pictures and files are painted.
 
-use kurbo::BezPath;
+use kurbo::{Affine, BezPath, PathEl};
 
 /// How a shape is painted.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -13,6 +13,9 @@ pub enum Paint {
     Line(f64),
     /// A line as above, with dashes and gaps.
     Dashes(f64),
+    /// The image of this number, laid over the parallelogram that the path goes around from the image's upper left
+    /// corner along its upper side.
+    Image(u32),
 }
 
 /// A shape of one colour.
@@ -26,4 +29,23 @@ pub struct Mark {
     pub paint: Paint,
     /// sRGB and alpha.
     pub color: [u8; 4],
+}
+
+impl Mark {
+    /// What lays the unit square over the parallelogram of an image; `None` where the path is none.
+    pub(crate) fn image_place(&self) -> Option<Affine> {
+        let [
+            PathEl::MoveTo(start),
+            PathEl::LineTo(right),
+            PathEl::LineTo(end),
+            ..,
+        ] = self.path.elements()
+        else {
+            return None;
+        };
+        let (along, across) = (*right - *start, *end - *right);
+        Some(Affine::new([
+            along.x, along.y, across.x, across.y, start.x, start.y,
+        ]))
+    }
 }

@@ -1,9 +1,12 @@
 //! Drawings as PDF files: one page, with layers that readers can switch on and off.
 //!
-//! Layers by kind hold layers by object. Nothing depends on time or chance: no dates, no identifiers.
+//! Layers by kind hold layers by object. Stamps of a brush are images that stand once, of one colour under a soft mask.
+//! Nothing depends on time or chance: no dates, no identifiers.
 
-use crate::artwork::{Artwork, DASH, Group, Mark, Paint, REGION_SEAM_PX, arrange, plain_name};
-use kurbo::PathEl;
+use crate::artwork::{
+    Artwork, DASH, Group, Mark, Paint, REGION_SEAM_PX, StampImage, arrange, plain_name,
+};
+use kurbo::{Affine, PathEl};
 use npr_core::number::on_grid;
 use npr_vector::stroke::Drawing;
 use pdf_writer::types::{LineCapStyle, LineJoinStyle};
@@ -54,6 +57,9 @@ pub fn write_pdf(drawing: &Drawing, options: &PdfOptions) -> Vec<u8> {
     plan.list_resources(&mut page.resources());
     page.finish();
     plan.write_parts(&mut pdf);
+    for (image, ids) in artwork.images.iter().zip(&plan.images) {
+        write_image(&mut pdf, image, *ids);
+    }
 
     // Write the marks, with y up as PDF has it.
     let mut writer = Writer {
@@ -81,6 +87,8 @@ struct Plan {
     folders: Vec<Folder>,
     /// Opacities in use, out of 255, in rising order.
     opacities: BTreeMap<u8, Ref>,
+    /// Images of brushes, each with its mask.
+    images: Vec<[Ref; 2]>,
 }
 
 impl Plan {
@@ -118,7 +126,12 @@ impl Plan {
                 inner,
             });
         }
-        Self { folders, opacities }
+        let images = artwork.images.iter().map(|_| [free(), free()]).collect();
+        Self {
+            folders,
+            opacities,
+            images,
+        }
     }
 
     /// All layers, the outer before the inner ones.
@@ -155,6 +168,13 @@ impl Plan {
         for (opacity, id) in &self.opacities {
             states.pair(Name(&opacity_name(*opacity)), *id);
         }
+        states.finish();
+        if !self.images.is_empty() {
+            let mut images = resources.x_objects();
+            for (number, [image, _]) in self.images.iter().enumerate() {
+                images.pair(Name(&image_name(number as u32)), *image);
+            }
+        }
     }
 
     /// Writes the layers and opacities themselves.
@@ -185,6 +205,24 @@ fn label(group: &Group) -> String {
 
 fn layer_name(id: Ref) -> Vec<u8> {
     format!("L{}", id.get()).into_bytes()
+}
+
+fn image_name(number: u32) -> Vec<u8> {
+    format!("S{number}").into_bytes()
+}
+
+/// Writes a pixel of the colour of an image, and the image's ink as its mask.
+fn write_image(pdf: &mut Pdf, image: &StampImage, [id, mask_id]: [Ref; 2]) {
+    let mut pixel = pdf.image_xobject(id, &image.color);
+    pixel.width(1).height(1).bits_per_component(8);
+    pixel.color_space().device_rgb();
+    pixel.s_mask(mask_id);
+    pixel.finish();
+    let [width, height] = image.size.map(|side| side as i32);
+    let mut mask = pdf.image_xobject(mask_id, &image.alpha);
+    mask.width(width).height(height).bits_per_component(8);
+    mask.color_space().device_gray();
+    mask.interpolate(true);
 }
 
 fn opacity_name(opacity: u8) -> Vec<u8> {
@@ -261,6 +299,17 @@ impl Writer<'_> {
                 self.content.set_dash_pattern(dashes, 0.0);
                 self.path(mark);
                 self.content.stroke();
+            }
+            Paint::Image(number) => {
+                // Images of PDF stand on their lower side.
+                let upright = Affine::new([1.0, 0.0, 0.0, -1.0, 0.0, 1.0]);
+                let Some(place) = mark.image_place() else {
+                    return;
+                };
+                let place = (place * upright).as_coeffs().map(on_thousandths);
+                self.content.save_state().transform(place);
+                self.content.x_object(Name(&image_name(number)));
+                self.content.restore_state();
             }
         }
     }

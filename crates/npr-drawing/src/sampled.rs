@@ -133,9 +133,10 @@ fn line_of(
     }
 }
 
-/// Half the width of a stroke at a point; what is no number is no width.
+/// Half the width of a stroke at a point.
 fn half_width(point: &StrokePoint) -> f64 {
-    (0.5 * point.width).max(0.0).min(WIDEST)
+    // What is no number is no width.
+    (0.5 * point.width).clamp(0.0, WIDEST).max(0.0)
 }
 
 impl Sampling<'_> {

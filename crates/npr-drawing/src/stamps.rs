@@ -62,12 +62,7 @@ impl Stamps {
         let (Some(first), true) = (points.first(), length.is_finite()) else {
             return Vec::new();
         };
-        let least = LEAST_SPACING_PX.max(length / STAMPS_MAX);
-        let spacing = if self.spacing_px > least {
-            self.spacing_px
-        } else {
-            least
-        };
+        let spacing = self.spacing_over(length);
         let start = if first.u.abs() < 1e9 { first.u } else { 0.0 };
 
         // Set one at every multiple.
@@ -86,6 +81,16 @@ impl Stamps {
             way += piece;
         }
         stamps
+    }
+
+    /// Distance between stamps of a part of a stroke so many pixels long.
+    pub(crate) fn spacing_over(&self, length: f64) -> f64 {
+        let least = LEAST_SPACING_PX.max(length / STAMPS_MAX);
+        if self.spacing_px > least {
+            self.spacing_px
+        } else {
+            least
+        }
     }
 
     /// A stamp at a point of a stroke that runs `forward`.

@@ -1,12 +1,15 @@
 //! Drawings as SVG files that vector editors and pen plotters read.
 //!
 //! Layers are groups that Inkscape shows as layers, by kind; inside are groups by object; every path carries the id
-//! of its stroke in `data-id`. Coordinates are whole hundredths of a pixel (thousandths of a millimetre on a page).
+//! of its stroke in `data-id`. Stamps of a brush are uses of images that stand once, as PNG files within the file, in
+//! a group a stroke. Coordinates are whole hundredths of a pixel (thousandths of a millimetre on a page).
 //! Names are data: they are escaped, and what could break or disguise text is left out.
 
 use crate::artwork::{
-    Artwork, DASH, Group, Layer, Mark, Paint, REGION_SEAM_PX, arrange, plain_name,
+    Artwork, DASH, Group, Layer, Mark, Paint, REGION_SEAM_PX, StampImage, arrange, plain_name,
 };
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
 use kurbo::{BezPath, PathEl};
 use npr_core::number::{on_grid, push_fixed, push_steps};
 use npr_trace::svg_path::PathData;
@@ -49,12 +52,30 @@ impl Writer {
             push_fixed(&mut text, side, 3);
             text
         });
+        // Viewers of all ages follow links of this kind.
+        let links = match artwork.images.is_empty() {
+            true => "",
+            false => "xmlns:xlink=\"http://www.w3.org/1999/xlink\" ",
+        };
         self.text += &format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" \
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" {links}\
              xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" \
              width=\"{width}{unit}\" height=\"{height}{unit}\" viewBox=\"0 0 {width} {height}\" \
              stroke-linecap=\"round\" stroke-linejoin=\"round\">\n"
         );
+
+        // Hold the images of brushes, a unit wide and high.
+        if !artwork.images.is_empty() {
+            self.text += "<defs>\n";
+            for (number, image) in artwork.images.iter().enumerate() {
+                let data = BASE64_STANDARD.encode(png(image));
+                self.text += &format!(
+                    "<image id=\"stamp-{number}\" width=\"1\" height=\"1\" \
+                     preserveAspectRatio=\"none\" xlink:href=\"data:image/png;base64,{data}\"/>\n"
+                );
+            }
+            self.text += "</defs>\n";
+        }
 
         // Lay the ground.
         if let Some(color) = artwork.background.filter(|color| color[3] > 0) {
@@ -94,7 +115,23 @@ impl Writer {
         let head = format!("<g id=\"{layer}-{number}\" inkscape:label=\"{label}\"{shared}>\n");
         let start = self.text.len();
         self.text += &head;
+        let mut stamped = None;
         for (mark, style) in group.marks.iter().zip(&styles) {
+            // Stamps of a stroke have a group of their own.
+            let of_stamps = mark
+                .stroke
+                .filter(|_| matches!(mark.paint, Paint::Image(_)));
+            if stamped != of_stamps {
+                self.text += if stamped.is_some() { "</g>\n" } else { "" };
+                if let Some(id) = of_stamps {
+                    self.text += &format!("<g data-id=\"{id}\">\n");
+                }
+                stamped = of_stamps;
+            }
+            if let Paint::Image(number) = mark.paint {
+                self.stamp(mark, number, if shared.is_empty() { style } else { "" });
+                continue;
+            }
             let Some(data) = path_data(&mark.path, self.decimals) else {
                 continue;
             };
@@ -105,7 +142,21 @@ impl Writer {
                 .unwrap_or_default();
             self.text += &format!("<path{id}{own} d=\"{data}\"/>\n");
         }
+        self.text += if stamped.is_some() { "</g>\n" } else { "" };
         self.close_group(start, head.len());
+    }
+
+    /// A use of an image where a mark lies.
+    fn stamp(&mut self, mark: &Mark, number: u32, style: &str) {
+        let Some(place) = mark.image_place() else {
+            return;
+        };
+        self.text += &format!("<use xlink:href=\"#stamp-{number}\"{style} transform=\"matrix(");
+        for (i, number) in place.as_coeffs().into_iter().enumerate() {
+            self.text += if i > 0 { " " } else { "" };
+            push_fixed(&mut self.text, number, self.decimals);
+        }
+        self.text += ")\"/>\n";
     }
 
     /// Ends a group, or removes its start if nothing was put into it.
@@ -132,6 +183,7 @@ impl Writer {
             Paint::Line(width) => {
                 format!(" fill=\"none\"{}", self.stroke(mark.color, width))
             }
+            Paint::Image(_) => opacity("", mark.color[3]),
             Paint::Dashes(width) => {
                 let [dash, gap] = DASH.map(|share| self.number(share * width));
                 format!(
@@ -164,13 +216,35 @@ impl Writer {
 
 /// Attributes of a colour, with its opacity where it is not full.
 fn paint(attribute: &str, [r, g, b, a]: [u8; 4]) -> String {
-    let color = format!(" {attribute}=\"#{r:02x}{g:02x}{b:02x}\"");
-    if a == 255 {
-        return color;
+    let prefix = format!("{attribute}-");
+    format!(
+        " {attribute}=\"#{r:02x}{g:02x}{b:02x}\"{}",
+        opacity(&prefix, a)
+    )
+}
+
+/// The attribute of an opacity that is not full.
+fn opacity(prefix: &str, alpha: u8) -> String {
+    if alpha == 255 {
+        return String::new();
     }
     let mut opacity = String::new();
-    push_fixed(&mut opacity, f64::from(a) / 255.0, 3);
-    format!("{color} {attribute}-opacity=\"{opacity}\"")
+    push_fixed(&mut opacity, f64::from(alpha) / 255.0, 3);
+    format!(" {prefix}opacity=\"{opacity}\"")
+}
+
+/// The image of a brush as a PNG file.
+fn png(image: &StampImage) -> Vec<u8> {
+    let mut file = Vec::new();
+    let mut encoder = png::Encoder::new(&mut file, image.size[0], image.size[1]);
+    encoder.set_color(png::ColorType::Rgba);
+    encoder.set_compression(png::Compression::High);
+    let written = encoder
+        .write_header()
+        .and_then(|mut writer| writer.write_image_data(&image.rgba()));
+    // Memory takes whatever is written, and the pixels are as many as the size says.
+    debug_assert!(written.is_ok());
+    file
 }
 
 /// The value of `d`: every subpath begins with an absolute place, all other coordinates are relative and exact on the

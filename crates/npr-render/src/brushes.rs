@@ -1,14 +1,14 @@
 //! The brushes that a style draws the strokes of a model with.
 
 use crate::error::RenderError;
-use crate::hatching::FrameScale;
 use crate::part_info::PartInfo;
 use crate::pictures::Pictures;
 use npr_core::texture::TextureStore;
+use npr_drawing::artwork::StrokeBrushes;
 use npr_drawing::ink::{BrushLay, Images};
 use npr_drawing::stamps::Stamps;
 use npr_style::brush::BrushImage;
-use npr_stylesheet::{BrushMapping, LineBrush, Style};
+use npr_stylesheet::{BrushMapping, LineBrush, Look, Style};
 use npr_vector::brush::Brush;
 use npr_vector::stroke::Stroke;
 
@@ -29,20 +29,20 @@ struct StoredImage {
 }
 
 impl Brushes {
-    /// Gives each of the `parts` that strokes are found on its brush, and puts the images into the texture store, each
-    /// once.
+    /// Gives each of the `parts` on which strokes are found, where `is_stroked` is true of its look, its brush, and
+    /// puts the images into the texture store, each once; a pixel has so many hills of the paper.
     pub fn new(
         parts: &[PartInfo],
         style: &Style,
         pictures: &Pictures<'_>,
-        frame: &FrameScale,
+        (spots_per_px, is_stroked): (f32, fn(&Look<'_>) -> bool),
         textures: &mut TextureStore,
     ) -> Result<Self, RenderError> {
         // Find the brushes that are no pens.
         let looks = parts.iter().map(|info| info.look(style));
         let drawn: Vec<Option<LineBrush>> = looks
             .map(|look| {
-                let draws = look.line_on && look.line_method.source().is_some();
+                let draws = look.line_on && is_stroked(&look);
                 Some(look.line_brush).filter(|brush| draws && !brush.is_pen())
             })
             .collect();
@@ -79,7 +79,7 @@ impl Brushes {
                 dry: manner.dry,
                 grain: manner.grain,
                 soft: manner.soft,
-                spots_per_px: frame.spots_per_px,
+                spots_per_px,
                 ..*header
             };
             let number = match brushes.all.iter().position(|other| *other == own) {
@@ -106,18 +106,32 @@ impl Brushes {
     /// How a brush lies on a stroke, where the base width is `base_px`.
     pub fn lay_of(&self, stroke: &Stroke, base_px: f32) -> BrushLay {
         let of_part = self.of_parts.get(stroke.surface as usize);
-        let BrushLay { brush, images } = of_part.copied().unwrap_or(BrushLay::PEN);
-        let width = f64::from(base_px);
-        let images = match images {
-            Images::Once => Images::Once,
-            Images::ByLength(widths) => Images::ByLength(widths * width),
-            Images::Stamps(stamps) => Images::Stamps(Stamps {
-                spacing_px: stamps.spacing_px * width,
-                ..stamps
-            }),
-        };
-        BrushLay { brush, images }
+        scaled(of_part.copied().unwrap_or(BrushLay::PEN), base_px)
     }
+
+    /// The same for files, where `textures` holds the images of the brushes alone.
+    pub fn into_files(self, textures: TextureStore, base_px: f32) -> StrokeBrushes {
+        let lays = self.of_parts.iter().map(|lay| scaled(*lay, base_px));
+        StrokeBrushes {
+            lays: lays.collect(),
+            all: self.all,
+            texels: textures.words().to_vec(),
+        }
+    }
+}
+
+/// How a brush lies where the base width is `base_px`, of how it does where that is a pixel.
+fn scaled(BrushLay { brush, images }: BrushLay, base_px: f32) -> BrushLay {
+    let width = f64::from(base_px);
+    let images = match images {
+        Images::Once => Images::Once,
+        Images::ByLength(widths) => Images::ByLength(widths * width),
+        Images::Stamps(stamps) => Images::Stamps(Stamps {
+            spacing_px: stamps.spacing_px * width,
+            ..stamps
+        }),
+    };
+    BrushLay { brush, images }
 }
 
 /// How often the image of a brush, `length` widths long, lies on a stroke, where a pixel is as long as the base width.

@@ -99,7 +99,9 @@ impl StyledModel {
             &mut textures,
         )?;
         inked.notices.extend(style.line_paint_notices());
-        let brushes = Brushes::new(stroked, style, &pictures, &frame, &mut textures)?;
+        let has_strokes = |look: &Look<'_>| look.line_method.source().is_some();
+        let laid = (frame.spots_per_px, has_strokes as fn(&Look<'_>) -> bool);
+        let brushes = Brushes::new(stroked, style, &pictures, laid, &mut textures)?;
         if parts.is_empty() {
             parts.push(Part::default());
         }
@@ -347,7 +349,7 @@ pub(crate) fn largest_half_width(style: &Style, parts: &[Part], base_px: f32) ->
 const SPOTS_PER_PX: [f32; 2] = [1e-3, 1.0];
 
 /// Hills of a style's paper per pixel, where lengths are resolved by the height, dots per inch, and pixels of a unit.
-fn spots_per_px(style: &Style, [height, dpi, world]: [f32; 3]) -> f32 {
+pub(crate) fn spots_per_px(style: &Style, [height, dpi, world]: [f32; 3]) -> f32 {
     let [fewest, most] = SPOTS_PER_PX;
     (1.0 / style.paper.size.to_px(height, dpi, world))
         .max(fewest)

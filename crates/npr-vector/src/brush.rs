@@ -71,6 +71,18 @@ impl Brushes<'_> {
         (brush.texels_across > 0).then_some(brush)
     }
 
+    /// Share of ink, 0 to 1, that its brush leaves at a place of a stroke of one piece, or of a stamp; 1 where the
+    /// brush has an even ink. O(1).
+    pub fn ink_alone(&self, ends: &[InkPoint; 2], px: [f32; 2]) -> f32 {
+        let piece = BrushedPiece {
+            ends: *ends,
+            before: None,
+            behind: None,
+        };
+        let brush = self.of(ends[0].flags >> InkPoint::BRUSH_SHIFT);
+        brush.map_or(1.0, |brush| self.ink(brush, &piece, px))
+    }
+
     /// Share of ink, 0 to 1, that a brush leaves in a pixel that a piece of a stroke covers; 0 where the piece before
     /// or behind lies nearer.
     pub(crate) fn ink(&self, brush: &Brush, piece: &BrushedPiece, px: [f32; 2]) -> f32 {

@@ -40,6 +40,7 @@ impl Output {
             lines(LineSource::Edges, LineForm::Ink, true),
             lines(LineSource::Edges, LineForm::Data, false),
             lines(LineSource::Edges, LineForm::Centrelines, false),
+            lines(LineSource::Edges, LineForm::Stamps, false),
             lines(LineSource::Surface, LineForm::Ink, false),
             lines(LineSource::Potrace, LineForm::Ink, false),
             lines(LineSource::Image, LineForm::Ink, false),

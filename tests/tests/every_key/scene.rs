@@ -2,7 +2,7 @@
 
 use crate::outputs::Output;
 use npr_core::camera::{Camera, Projection};
-use npr_drawing::artwork::{ArtworkOptions, Paths};
+use npr_drawing::artwork::{ArtworkOptions, Paths, StrokeBrushes};
 use npr_drawing::json::write_json;
 use npr_drawing::lettering::testing::block_font;
 use npr_drawing::svg::write_svg;
@@ -119,20 +119,25 @@ impl Studio {
         }
         let view = camera().view(SIZE, model.bounds());
         let words = Lettering::new(style, &self.fonts).unwrap();
-        let paths = if form == LineForm::Centrelines {
-            Paths::Centreline
-        } else {
-            Paths::Outline
+        let paths = match form {
+            LineForm::Centrelines => Paths::Centreline,
+            LineForm::Stamps => Paths::Stamps,
+            LineForm::Ink | LineForm::Data => Paths::Outline,
+        };
+        let brushes = match paths {
+            Paths::Stamps => model.brushes(style, &options).unwrap(),
+            Paths::Outline | Paths::Centreline => StrokeBrushes::default(),
         };
         let artwork = ArtworkOptions {
             paths,
             background: match style.background {
-                Background::Color(color) if paths == Paths::Outline => {
+                Background::Color(color) if paths != Paths::Centreline => {
                     Some([color.r, color.g, color.b, color.a])
                 }
                 _ => None,
             },
             lettering: words.placed(&view, options.dpi),
+            brushes,
             ..ArtworkOptions::default()
         };
         (write_svg(&drawing, &artwork), style.line_paint_notices())

@@ -12,7 +12,7 @@ use npr_tests::Agreement;
 use npr_tests::comic::{SIZE, front};
 use npr_tests::{Ink, Object, device, lines, placed, scene_of};
 
-fn scene() -> Scene {
+pub fn scene() -> Scene {
     scene_of(&[
         Object::new("Left", placed(&icosphere(4), [0.6; 3], [-0.7, 0.0, 0.0])),
         Object::new("Right", placed(&icosphere(4), [0.6; 3], [0.4, 0.0, -1.0])),

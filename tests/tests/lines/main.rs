@@ -6,5 +6,6 @@ mod brushes_in_frames;
 mod contour_growth;
 mod curves_in_frames;
 mod expression;
+mod files_and_frames;
 mod outlines;
 mod sampled_sights;

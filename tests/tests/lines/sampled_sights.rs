@@ -37,7 +37,7 @@ fn drawn_on(
     let frame = renderer.draw(camera.unwrap_or(&own)).unwrap();
     let costs = renderer.pass_costs().unwrap();
     let of_lines = costs.iter().filter(|cost| {
-        let name: &str = &cost.name;
+        let name = cost.name;
         name.starts_with("stroke.") || name.starts_with("vector.")
     });
     (frame, of_lines.count())

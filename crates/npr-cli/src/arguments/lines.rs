@@ -92,7 +92,7 @@ pub struct LineArguments {
 #[derive(Debug, Clone, Default, PartialEq, Args)]
 #[command(next_help_heading = "Sheet")]
 pub struct SheetArguments {
-    /// Paths of .svg files.
+    /// Paths of .svg, .pdf and .png files.
     #[arg(long, value_enum, default_value_t)]
     pub svg: PathForm,
     /// Fit the drawing on a page, turned to suit it, with 10 mm free on all sides; for .svg and .pdf.
@@ -172,6 +172,8 @@ pub enum PathForm {
     Outline,
     /// The middle of every line, in an order that keeps pen-up ways short: for pen plotters.
     Centreline,
+    /// The same as outline, but the strokes of brushes (line.brush) are their image, set down again and again.
+    Stamps,
 }
 
 /// A parser that chooses one of `all` by its name. The meaning of each becomes its help text.

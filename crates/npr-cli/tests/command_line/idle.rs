@@ -102,6 +102,59 @@ const DRAWINGS: &[Case] = &[
         Told("--svg is ignored: "),
     ),
     (
+        &[
+            "lines",
+            "scene.obj",
+            "-o",
+            "a.svg",
+            "--set",
+            "line.brush.tip=charcoal",
+        ],
+        &["--svg", "stamps"],
+        Acts,
+    ),
+    (
+        &[
+            "lines",
+            "scene.obj",
+            "-o",
+            "a.pdf",
+            "--set",
+            "line.brush.tip=charcoal",
+        ],
+        &["--svg", "stamps"],
+        Acts,
+    ),
+    (
+        &[
+            "lines",
+            "scene.obj",
+            "-o",
+            "a.png",
+            "--set",
+            "line.brush.tip=charcoal",
+        ],
+        &["--svg", "stamps"],
+        Acts,
+    ),
+    (
+        &[
+            "lines",
+            "scene.obj",
+            "-o",
+            "a.json",
+            "--set",
+            "line.brush.tip=charcoal",
+        ],
+        &["--svg", "stamps"],
+        Told("--svg is ignored: "),
+    ),
+    (
+        &["lines", "scene.obj", "-o", "a.svg"],
+        &["--svg", "stamps"],
+        Told("--svg is ignored: "),
+    ),
+    (
         &["lines", "scene.obj", "-o", "a.svg"],
         &["--svg", "centreline"],
         Acts,
@@ -460,6 +513,26 @@ fn every_option_of_every_drawing_command_is_tried() {
         }
     }
     assert!(missing.is_empty(), "{missing:?}");
+}
+
+#[test]
+fn brushes_are_told_where_a_file_has_even_ink() {
+    let place = Workplace::with_scene();
+    let brush = ["--set", "line.brush.tip=chalk", "--set", "paper.size=3px"];
+    let said = |more: &[&str]| {
+        let line = ["lines", "scene.obj", "--size", "48x32"];
+        let outcome = place.npr(&[&line[..], &brush, more].concat());
+        assert_eq!(outcome.code, Some(0));
+        outcome.stderr
+    };
+    let wanted = "npr: warning: 'line.brush.tip' is ignored by npr lines: drawings of lines have even ink, \
+                  but for --svg stamps\n\
+                  npr: warning: 'paper.size' is ignored by npr lines: drawings of lines have no grain, \
+                  but for --svg stamps\n";
+    assert_eq!(said(&[]), wanted);
+    for file in ["a.svg", "a.pdf", "a.png"] {
+        assert_eq!(said(&["--svg", "stamps", "-o", file]), "", "{file}");
+    }
 }
 
 #[test]

@@ -14,6 +14,7 @@ use super::view::LineView;
 use super::welded::{build, check_budget, colors_of, mark_materials, notices_of};
 use super::widths::{ShapeBends, WidthInput, Widths};
 use super::{colors, image, paint, pixels, smoke, widths};
+use crate::brushes::Brushes;
 use crate::error::RenderError;
 use crate::file_light::{self, FileLight};
 use crate::frame::Frame;
@@ -21,6 +22,7 @@ use crate::kept::{Cache, input_of};
 use crate::look;
 use crate::options::{Picture, check_size};
 use crate::part_info::PartInfo;
+use crate::pictures::Pictures;
 use crate::placement::{self, Bounds};
 use crate::smoke::Smoke;
 use glam::{DVec3, Vec3};
@@ -29,6 +31,8 @@ use npr_core::camera::Camera;
 use npr_core::crease::CreaseFrom;
 use npr_core::geometry::Part;
 use npr_core::line_source::LineSource;
+use npr_core::texture::TextureStore;
+use npr_drawing::artwork::StrokeBrushes;
 use npr_drawing::pressure::Pressure;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_mesh::shape::Preparation;
@@ -232,7 +236,31 @@ impl LineModel {
         self.draw_with(camera, style, options, behind, find)
     }
 
-    /// Gives the pictures that styles name in `line.paint.image`, by these names.
+    /// The brushes with which a style draws the lines of this model in files that have them
+    /// ([`Paths::Stamps`](npr_drawing::artwork::Paths)), whatever its line method; none where all lines are a pen's.
+    ///
+    /// Stamps lie apart as in pictures of this size. O(texels of the brushes' images).
+    ///
+    /// # Errors
+    ///
+    /// [`RenderError::MissingPicture`] for a picture that was not [given](Self::set_pictures), [`RenderError::Brush`]
+    /// for one that is no brush.
+    pub fn brushes(
+        &self,
+        style: &Style,
+        options: &LineOptions,
+    ) -> Result<StrokeBrushes, RenderError> {
+        let pictures = Pictures::new(style, &self.pictures)?;
+        let [height, dpi, world_px] = self.px(options);
+        let paper = look::spots_per_px(style, [height, dpi, 0.5 * world_px]);
+        let mut textures = TextureStore::new();
+        let laid = (paper, (|_| true) as fn(&Look<'_>) -> bool);
+        let brushes = Brushes::new(&self.parts, style, &pictures, laid, &mut textures)?;
+        let base_px = look::base_px(style, options.size[1], dpi, world_px);
+        Ok(brushes.into_files(textures, base_px))
+    }
+
+    /// Gives the pictures that styles name in `line.paint.image` and `line.brush.image`, by these names.
     pub fn set_pictures(&mut self, pictures: BTreeMap<String, Picture>) {
         self.pictures = pictures;
     }

@@ -36,8 +36,10 @@ pub struct LineOutput {
 /// The contents of a file of lines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LineForm {
-    /// Ink on paper.
+    /// Ink on paper, of one even pen.
     Ink,
+    /// Ink on paper, with brushes.
+    Stamps,
     /// The middles of lines, for pen plotters.
     Centrelines,
     /// Points for programs: no paper and no words.
@@ -191,7 +193,8 @@ impl<'a> Case<'a> {
                 !brush.is_pen() && brush.manner().grain > 0.0
             });
         let hatching = self.hatches() && self.any(|look| look.ink.hatch.grain > 0.0);
-        strokes || hatching || self.on.scene.smoke && smoke.hatch.grain > 0.0
+        let tones = hatching || self.on.scene.smoke && smoke.hatch.grain > 0.0;
+        strokes || self.has_tones() && tones
     }
 
     /// Whether the lines of any part may adapt to the background by one of these methods.

@@ -109,13 +109,13 @@ pub(super) const ENTRIES: &[Entry] = &[
     ),
     entry(
         &["line.brush"],
-        |c| !c.is_frame(),
-        "brushes are of pictures: drawings of lines have even ink",
+        |c| !c.is_frame() && !c.is_written_as(LineForm::Stamps),
+        "drawings of lines have even ink, but for --svg stamps",
     ),
     entry(
         &["paper"],
-        |c| !c.is_frame(),
-        "the grain of paper is of pictures",
+        |c| !c.is_frame() && !c.is_written_as(LineForm::Stamps),
+        "drawings of lines have no grain, but for --svg stamps",
     ),
     entry(
         &["motion", "blend"],
@@ -201,7 +201,11 @@ pub(super) const ENTRIES: &[Entry] = &[
     ),
     entry(
         &["background"],
-        |c| !c.is_frame() && !c.is_written_as(LineForm::Ink) && !c.has_tones(),
+        |c| {
+            let holds_lines =
+                [LineForm::Centrelines, LineForm::Data].map(|form| c.is_written_as(form));
+            holds_lines.contains(&true) && !c.has_tones()
+        },
         "the file holds lines alone",
     ),
     entry(

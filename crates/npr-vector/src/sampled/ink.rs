@@ -224,15 +224,19 @@ impl Inking<'_> {
 
         // Thin out free ends: steep at the tip, even where the taper ends.
         let most = width.taper_share.min(0.5) * length;
-        let mut taper: f32 = 1.0;
-        for end in 0..2 {
-            let reach = width.taper_px[end].min(most);
-            if reach > 0.0 && (free[end] || width.at_all_ends != 0) {
-                let from_end = if end == 0 { along } else { length - along };
-                let share = (from_end / reach).clamp(0.0, 1.0);
-                taper = taper.min(width.tip + (1.0 - width.tip) * share * (2.0 - share));
+        let ends = free
+            .into_iter()
+            .zip(width.taper_px)
+            .zip([along, length - along]);
+        let taper = ends.map(|((is_free, px), from_end)| {
+            let reach = px.min(most);
+            if reach <= 0.0 || !(is_free || width.at_all_ends != 0) {
+                return 1.0;
             }
-        }
+            let share = (from_end / reach).clamp(0.0, 1.0);
+            width.tip + (1.0 - width.tip) * share * (2.0 - share)
+        });
+        let taper = taper.fold(1.0, f32::min);
 
         // Press along the part.
         let place = (along / length.max(1e-6)).clamp(0.0, 1.0) * 31.0;

@@ -115,7 +115,8 @@ impl Scenery<'_> {
                 let met = self.met(triangle, sample, self.window.frame_at(pixel[0], pixel[1]));
                 let size = self.pixel_coordinate(met.depth);
                 let clearly = CLEARLY_PX * met.slope.min(STEEPEST * size).max(size);
-                if !(met.before > clearly) {
+                // What is no number lies before nothing.
+                if met.before <= clearly || met.before.is_nan() {
                     return None;
                 }
                 hider = hider.min(met.depth);
