@@ -1,4 +1,4 @@
-// stroke.weigh_samples: whether each sample is visible by most of the samples around it, and whether that verdict is clear.
+// stroke.weigh_samples: whether each sample is visible by most of the samples around it, and whether that is clear.
 //
 // Source  Cole & Finkelstein 2010, filtering along the line
 // Twin    npr_vector::sampled::weigh_samples

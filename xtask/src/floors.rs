@@ -102,6 +102,7 @@ const MEMBERS: [Member; 17] = [
         "npr-benches",
         &[
             "npr-core",
+            "npr-drawing",
             "npr-gpu",
             "npr-mesh",
             "npr-render",

@@ -119,8 +119,8 @@ impl Measures {
         }
     }
 
-    /// Share of what must be drawn that has no ink, and ink where there should be none as a share of what is hidden, for
-    /// one of [`TOLERANCES_PX`].
+    /// Share of what must be drawn that has no ink, and ink where there should be none as a share of what is hidden,
+    /// for one of [`TOLERANCES_PX`].
     pub fn faults(&self, reference: &Reference, tolerance: usize) -> [f64; 2] {
         let false_px = (1.0 - self.precision[tolerance]) * self.ink_px;
         let shown = match reference.hidden_px > 0.0 {

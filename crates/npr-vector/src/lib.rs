@@ -8,13 +8,13 @@
 //! | [`mesh_lines`] | exact curves of a mesh: contours, creases, intersections, and what hides them | |
 //! | [`pixel_strokes`] | strokes of the pixels that lines cover | [Jiang et al. 2022] |
 //! | [`image_lines`] | borders between surfaces in a picture, and lines painted in textures | |
-//! | [`sampled`] | what is seen of lines by samples in a picture of surfaces, and the ink of it | [Cole & Finkelstein 2010] |
+//! | [`sampled`] | what is seen of lines, by samples, and the ink of it | [Cole & Finkelstein 2010] |
 //! | [`rank`] | list ranking, which orders the nodes of lines in parallel | [Wyllie 1979] |
 //! | [`stroke_ink`] | strokes in the pixels of a frame, drawn with a [`brush`] | |
 //!
-//! Functions of [`screen`], [`rank`], [`pixel_strokes`], [`sampled`] and [`stroke_ink`] are twins of shaders. All ways but the first
-//! end in a [`stroke::Drawing`]; [`project`] and [`surface_location`] say where its points lie. Bitmaps alone are the
-//! crate [`npr_trace`], here [`trace`].
+//! Functions of [`screen`], [`rank`], [`pixel_strokes`], [`sampled`] and [`stroke_ink`] are twins of shaders. All ways
+//! but the first end in a [`stroke::Drawing`]; [`project`] and [`surface_location`] say where its points lie. Bitmaps
+//! alone are the crate [`npr_trace`], here [`trace`].
 //!
 //! ```
 //! // A line one pixel wide whose spine runs through a pixel's centre covers it whole.

@@ -76,8 +76,8 @@ pub fn filter_visibility(
         });
 }
 
-/// Visibility of samples, 1 or 0 each, by how far in front lies what hides them: [`weigh_samples`] and [`filter_visibility`] with the steps
-/// between them.
+/// Visibility of samples, 1 or 0 each, by how far in front lies what hides them: [`weigh_samples`] and
+/// [`filter_visibility`] with the steps between them.
 ///
 /// ```
 /// use npr_vector::sampled::{PartWidth, SampledLine, SpineSample, visible_samples};

@@ -59,9 +59,7 @@ fn creases(shape: &HalfEdgeMesh, angles_deg: [f32; 2]) -> (BTreeSet<u32>, usize)
     graph.sanity_check();
     let is_crease = |node: &u32| graph.nodes[*node as usize].flags & KindSet::CREASE != 0;
     let chains = graph.chains();
-    let chains = chains
-        .iter()
-        .filter(|chain| chain.iter().any(|node| is_crease(node)));
+    let chains = chains.iter().filter(|chain| chain.iter().any(&is_crease));
     let nodes = chains.clone().flatten().filter(|node| is_crease(node));
     (
         nodes.map(|node| graph.nodes[*node as usize].edge).collect(),
