@@ -42,7 +42,7 @@ impl BrushLay {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Laid {
     pub flags: u32,
-    /// Place in the image at the start of the stroke, and how far it moves per pixel along it.
+    /// Place in the image where the stroke's own way is 0, and how far it moves per pixel along it.
     pub start: f64,
     pub per_px: f64,
     /// Half width at which the brush is pressed down fully.
@@ -79,6 +79,12 @@ impl Laid {
             full,
             around: if stroke.closed { length } else { 0.0 },
         }
+    }
+
+    /// Place in the image at the first point of the stroke.
+    pub fn start_on(&self, stroke: &Stroke) -> f64 {
+        let first = stroke.points.first();
+        first.map_or(0.0, |first| f64::from(self.u(first, 0.0)))
     }
 
     /// Place in the image at a point of the stroke, after a number of rounds of a ring.

@@ -123,7 +123,7 @@ fn line_of(
         count,
         step_px: (length / f64::from(count - 1)) as f32,
         ink_flags: laid.flags,
-        u_start: laid.start as f32,
+        u_start: laid.start_on(stroke) as f32,
         u_per_px: laid.per_px as f32,
         full_half_width: widest as f32,
         bits: bit(SampledLine::START_FREE, !stroke.closed && !is_met[0])

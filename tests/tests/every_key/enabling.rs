@@ -286,6 +286,16 @@ const ENABLING: &[(&str, &[&str], &str)] = &[
         "masks of the drawing's own size need none",
     ),
     (
+        "line.crease_least",
+        &["line.crease_slack_deg=0.0", "line.least='0px'"],
+        "the ridge is one line from side to side, and long for a small picture",
+    ),
+    (
+        "line.least",
+        &["line.crease_slack_deg=0.0", "line.crease_least='0px'"],
+        "the same",
+    ),
+    (
         "line.crease_from",
         &["line.crease_angle_deg=6.0"],
         "the ball folds by less than creases do",

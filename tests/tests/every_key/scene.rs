@@ -180,7 +180,7 @@ fn camera() -> Camera {
     }
 }
 
-/// A ball and a box that cut through each other on a floor of two materials, and a beam.
+/// A ball and a box that cut through each other on a floor of two materials, a beam, and a sheet with a fold.
 fn scene() -> Scene {
     let mut scene = scene_of(&[
         Object::new("Ball", placed(&icosphere(2), [0.8; 3], [-0.7, 0.2, 0.0]))
@@ -193,6 +193,7 @@ fn scene() -> Scene {
             .colored([0.3, 0.3, 0.7])
             .double_sided(),
         Object::new("Glow", boxed([0.9, -0.4, 0.6], [1.1, 1.2, 0.8])),
+        Object::new("Roof", roof()).double_sided(),
     ]);
     // One object of two materials, whose border is a line.
     let trim = scene.meshes[3].parts.remove(0);
@@ -247,6 +248,23 @@ fn scene() -> Scene {
     });
     scene.materials.push(Material::default());
     scene
+}
+
+/// A sheet over the others whose ridge is a crease in the middle, and too soft for one up to either side.
+fn roof() -> npr_mesh::Mesh {
+    let stations = [-1.5, -0.6, -0.3, 0.0, 0.3, 0.6, 1.5];
+    let stations = [0.0, 0.28, 0.28, 0.28, 0.28, 0.28, 0.0_f32]
+        .into_iter()
+        .zip(stations);
+    let rows = stations.flat_map(|(drop, x)| [[x, 1.25, -drop], [x, 1.65, 0.0], [x, 2.05, -drop]]);
+    let corners = (0..6).flat_map(|piece| [3 * piece, 3 * piece + 1]);
+    let triangles = corners.flat_map(|corner| {
+        [
+            [corner, corner + 3, corner + 1],
+            [corner + 1, corner + 3, corner + 4],
+        ]
+    });
+    npr_mesh::Mesh::new(rows.collect(), triangles.collect()).unwrap()
 }
 
 /// A strip of floor from an x on.

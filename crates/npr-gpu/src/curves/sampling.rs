@@ -28,7 +28,7 @@ pub struct SampledFrame {
 }
 
 /// Appends passes that find which parts of lines are visible; gives a buffer of
-/// [`InkPoint`](npr_vector::ink_point::InkPoint)s, one for every two samples.
+/// [`InkPoint`]s, one for every two samples.
 ///
 /// The result is that of [`inked`](npr_vector::sampled::inked) of
 /// [`visible_samples`](npr_vector::sampled::visible_samples) of [`see_samples`](npr_vector::sampled::see_samples).

@@ -335,9 +335,12 @@ pub(super) const ENTRIES: &[Entry] = &[
         !c.is_drawn_by(&[Shape, Filter, FilterHull, Strokes])
     }),
     of_methods(&["line.background.scope"], |c| {
-        !c.is_drawn_by(&[
+        // Rims lie between subjects, whose colours mix there.
+        let between = c.is_of_rule && c.is_drawn_by(&[Rim]);
+        let is_used = c.is_drawn_by(&[
             Shape, Okuya, Filter, Hull, FilterHull, Edges, Angle, Strokes, Potrace,
-        ])
+        ]);
+        !is_used && !between
     }),
     of_methods(&["line.paint.kinds.intersection"], |c| {
         !c.is_drawn_by(&[Shape, Filter, FilterHull, Strokes])
@@ -346,6 +349,11 @@ pub(super) const ENTRIES: &[Entry] = &[
         !c.is_drawn_by(&[Shape, Okuya, Filter, FilterHull, Strokes, Potrace])
     }),
     of_methods(&["line.crease_slack_deg"], |c| !c.is_drawn_by(&[Strokes])),
+    entry(
+        &["line.crease_slack_deg"],
+        |c| c.is_found_by(LineSource::Potrace) || c.is_found_by(LineSource::Image),
+        "methods of pixels find creases by the angle alone",
+    ),
     of_methods(
         &["line.split_angle_deg", "line.crease_least", "line.least"],
         |c| !c.is_drawn_by(&[Strokes, Potrace]),

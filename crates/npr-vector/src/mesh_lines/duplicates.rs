@@ -38,8 +38,7 @@ const HAIR_PX: f64 = 12.0;
 ///
 /// What is left of a run is cut by majority, so that noise leaves no shreds, but not where it holds two ends
 /// together: a short bare part between the ends of two lines stays, however little it is, and so does a hair from one
-/// end to the other. O(samples) for lines that
-/// do not crowd in one place.
+/// end to the other. O(samples) for lines that do not crowd in one place.
 pub fn suppress(runs: Vec<Run>) -> Vec<Run> {
     let mut taken = Taken::new();
     let mut kept: Vec<Vec<Run>> = vec![Vec::new(); runs.len()];
