@@ -110,8 +110,9 @@ pub struct Line {
     /// The same of lines of all kinds; default 24. 0 draws all, 12 clears scans of most shreds, 40 costs faces their
     /// small lines.
     pub least: Length = Length::ref_px(24.0),
-    /// How it is found what is seen of strokes; default `exact`. `sampled` is faster where lines are many, and leaves
-    /// lines side by side as they are. Dashes, overshoot, stamps, method `potrace`, layers and tiles need `exact`.
+    /// How it is found what is seen of strokes; default `exact`. `sampled` lets a device find it by itself, and
+    /// leaves lines side by side and short ones as they are. Dashes, overshoot, stamps, method `potrace`, layers and
+    /// tiles need `exact`.
     pub visibility: LineVisibility = LineVisibility::default(),
     /// Angle, in degrees, from which a stroke is cut where it turns sharply in the picture, 10..180; default 180,
     /// never. 60 draws a box in strokes along its sides, each with the brush's own ends. Of drawings as curves only.

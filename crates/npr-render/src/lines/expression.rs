@@ -93,7 +93,8 @@ impl Expression {
             ..self.taper
         };
         Self {
-            least_px: self.least_px,
+            // Whether an end is in the open hangs on what is seen of the lines around it.
+            least_px: [0.0; 2],
             overshoot: Overshoot {
                 beyond_px: 0.0,
                 short_px: 0.0,
