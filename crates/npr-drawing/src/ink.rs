@@ -8,7 +8,7 @@ use npr_vector::stroke::{Drawing, Stroke, StrokePoint};
 use rayon::prelude::*;
 
 /// Greatest half width of ink, in pixels: wider lines cover any frame.
-pub(crate) const WIDEST: f64 = 1e5;
+const WIDEST: f64 = 1e5;
 
 /// How the image of a brush lies on strokes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -100,8 +100,7 @@ impl Laid {
 
     /// A point of the stroke with its width and pressure, in its own colour or else in `own`; nearness and `u` are 0.
     pub fn inked(&self, point: &StrokePoint, own: [u8; 4]) -> InkPoint {
-        // No number is no width.
-        let half_width = half_width(point).max(0.0);
+        let half_width = half_width(point);
         InkPoint {
             px: point.position.map(|at| at as f32),
             half_width: half_width as f32,
@@ -115,8 +114,9 @@ impl Laid {
 }
 
 /// Half the width of a stroke at a point, at most [`WIDEST`].
-fn half_width(point: &StrokePoint) -> f64 {
-    (0.5 * point.width).clamp(0.0, WIDEST)
+pub(crate) fn half_width(point: &StrokePoint) -> f64 {
+    // No number is no width.
+    (0.5 * point.width).clamp(0.0, WIDEST).max(0.0)
 }
 
 /// The largest half width of a stroke, in pixels.

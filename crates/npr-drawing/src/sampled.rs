@@ -1,6 +1,6 @@
 //! Strokes of which it is not known yet what is seen, as samples for the passes that find out.
 
-use crate::ink::{BrushLay, Images, Laid, WIDEST};
+use crate::ink::{BrushLay, Images, Laid, half_width, widest};
 use crate::taper::met_ends;
 use npr_core::surface::apply_point;
 use npr_core::window::View;
@@ -114,7 +114,7 @@ fn line_of(
     let count = (steps + 1).next_multiple_of(2).max(2);
 
     // Lay its brush on it.
-    let widest = stroke.points.iter().map(half_width).fold(0.0, f64::max);
+    let widest = widest(stroke);
     let laid = Laid::new(stroke, lay, widest);
     let bit = |bit: u32, when: bool| if when { bit } else { 0 };
     let is_once = lay.brush > 0 && lay.images == Images::Once;
@@ -131,12 +131,6 @@ fn line_of(
             | bit(SampledLine::CLOSED, stroke.closed)
             | bit(SampledLine::ONCE, is_once),
     }
-}
-
-/// Half the width of a stroke at a point.
-fn half_width(point: &StrokePoint) -> f64 {
-    // What is no number is no width.
-    (0.5 * point.width).clamp(0.0, WIDEST).max(0.0)
 }
 
 impl Sampling<'_> {

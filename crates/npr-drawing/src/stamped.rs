@@ -16,7 +16,7 @@ use crate::clip::clip_stroke;
 use crate::ink::{BrushLay, Images, Laid, keep_apart, widest};
 use npr_vector::brush::{Brush, Brushes};
 use npr_vector::ink_point::InkPoint;
-use npr_vector::stroke::{Drawing, Stroke, StrokePoint};
+use npr_vector::stroke::{Drawing, Stroke, StrokePoint, length_of};
 use overlap::Overlaps;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -162,15 +162,6 @@ fn count(drawing: &Drawing, brushes: &StrokeBrushes, parts: &[Option<Vec<Part>>]
     };
     let strokes = drawing.strokes.iter().zip(parts);
     strokes.map(of_stroke).sum()
-}
-
-fn length_of(points: &[StrokePoint], is_closed: bool) -> f64 {
-    let back = points.first().filter(|_| is_closed);
-    let places: Vec<[f64; 2]> = points.iter().chain(back).map(|p| p.position).collect();
-    let steps = places
-        .windows(2)
-        .map(|pair| f64::hypot(pair[1][0] - pair[0][0], pair[1][1] - pair[0][1]));
-    steps.sum()
 }
 
 /// The stamps of a drawing; none of any stroke where they are more than [`STAMPS_LIMIT`].

@@ -44,15 +44,19 @@ impl Stroke {
 
     /// Length in the picture, in pixels.
     pub fn length(&self) -> f64 {
-        let open: f64 = self
-            .points
-            .windows(2)
-            .map(|pair| distance(&pair[0], &pair[1]))
-            .sum();
-        match (self.closed, self.points.first(), self.points.last()) {
-            (true, Some(first), Some(last)) => open + distance(last, first),
-            _ => open,
-        }
+        length_of(&self.points, self.closed)
+    }
+}
+
+/// Length in the picture, in pixels, of a way through points, and back to the first where it is closed.
+pub fn length_of(points: &[StrokePoint], closed: bool) -> f64 {
+    let open: f64 = points
+        .windows(2)
+        .map(|pair| distance(&pair[0], &pair[1]))
+        .sum();
+    match (closed, points.first(), points.last()) {
+        (true, Some(first), Some(last)) => open + distance(last, first),
+        _ => open,
     }
 }
 

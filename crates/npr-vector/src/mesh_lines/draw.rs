@@ -18,7 +18,6 @@ pub use spines::spines;
 
 use crate::mesh_lines::contour::{EdgeContours, Eye};
 use crate::mesh_lines::puff::SmokeLines;
-use crate::mesh_lines::run::{Run, RunPoint};
 use crate::mesh_lines::run_assembly::runs;
 use crate::mesh_lines::suppressed_edges::{edges_beside, suppressed_edges};
 use crate::mesh_lines::visibility::{FaceImages, Seen};
@@ -27,7 +26,7 @@ use crate::stroke::Stroke;
 use npr_core::budget::OverBudget;
 use npr_core::line_kind::KindSet;
 use npr_mesh::half_edge::HalfEdgeMesh;
-use paint::broken_up;
+use paint::painted;
 use rayon::prelude::*;
 use view::{Toll, View};
 
@@ -170,7 +169,7 @@ pub fn strokes_with(
     }
 
     // Make strokes, with the outline of smoke after them.
-    let mut strokes = strokes_of_runs(found, shape, settings, look);
+    let mut strokes = painted(calmed(found, settings), shape, look);
     if let Some(smoke) = smoke {
         let seen = Seen {
             extra: None,
@@ -182,22 +181,6 @@ pub fn strokes_with(
     Ok(ViewStrokes {
         strokes,
         left_out: toll.left_out,
-    })
-}
-
-/// The runs of a view as strokes, calmed and painted.
-fn strokes_of_runs(
-    found: Vec<Run>,
-    shape: &HalfEdgeMesh,
-    settings: &LineSettings,
-    look: &StrokeLook<'_>,
-) -> Vec<Stroke> {
-    let mut found = calmed(found, settings);
-    if look.paint_at.is_some() {
-        found = broken_up(found);
-    }
-    strokes_of(found, &|run: &Run, point: &RunPoint| {
-        look.paint(shape, run, point)
     })
 }
 

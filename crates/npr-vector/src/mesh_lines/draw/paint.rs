@@ -54,17 +54,21 @@ const PLAIN: PointPaint = PointPaint {
     width: 1.0,
 };
 
-/// Runs with no piece longer than [`PAINT_STEP_PX`].
-pub(super) fn broken_up(runs: Vec<Run>) -> Vec<Run> {
+/// Runs with no piece longer than `step_px`; `at` gives the point at a share of the way from one to the next.
+pub(super) fn broken_up(
+    runs: Vec<Run>,
+    step_px: f64,
+    at: &(dyn Fn(&RunPoint, &RunPoint, f64) -> RunPoint + Sync),
+) -> Vec<Run> {
     let broken = |run: Run| {
         let back = run.points.first().copied().filter(|_| run.closed);
         let next = run.points.iter().skip(1).copied().chain(back);
         let mut points = Vec::with_capacity(run.points.len());
         for (from, to) in run.points.iter().zip(next) {
             points.push(*from);
-            let count = (distance(from.place, to.place) / PAINT_STEP_PX).ceil();
+            let count = (distance(from.place, to.place) / step_px).ceil();
             let steps = 1..count.clamp(1.0, 1e4) as u32;
-            points.extend(steps.map(|i| between(from, &to, f64::from(i) / count)));
+            points.extend(steps.map(|i| at(from, &to, f64::from(i) / count)));
         }
         if !run.closed {
             points.extend(run.points.last());
@@ -72,6 +76,20 @@ pub(super) fn broken_up(runs: Vec<Run>) -> Vec<Run> {
         Run { points, ..run }
     };
     runs.into_par_iter().with_min_len(16).map(broken).collect()
+}
+
+/// Runs as strokes, painted; in more points where colours change from place to place.
+pub(super) fn painted(
+    mut runs: Vec<Run>,
+    shape: &HalfEdgeMesh,
+    look: &StrokeLook<'_>,
+) -> Vec<Stroke> {
+    if look.paint_at.is_some() {
+        runs = broken_up(runs, PAINT_STEP_PX, &between);
+    }
+    strokes_of(runs, &|run: &Run, point: &RunPoint| {
+        look.paint(shape, run, point)
+    })
 }
 
 /// Runs as strokes, in their order; `paint_at` gives colour and whole width in pixels at a point of a run.

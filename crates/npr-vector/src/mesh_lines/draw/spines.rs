@@ -1,7 +1,8 @@
 //! The lines of a view before it is known what hides them, for [`sampled`](crate::sampled) pictures.
 
+use super::paint::{broken_up, painted};
 use super::view::{Toll, View};
-use super::{Prepared, StrokeLook, ViewStrokes, broken_up, strokes_of};
+use super::{Prepared, StrokeLook, ViewStrokes};
 use crate::mesh_lines::bvh::{Sight, hides_alone};
 use crate::mesh_lines::contour::EdgeContours;
 use crate::mesh_lines::corner::split;
@@ -10,7 +11,7 @@ use crate::mesh_lines::line::Line;
 use crate::mesh_lines::line_settings::LineSettings;
 use crate::mesh_lines::merge::{TOUCHING_PX, merge_ends};
 use crate::mesh_lines::relabel_intersections::relabel_intersections;
-use crate::mesh_lines::run::{Run, RunPoint, distance};
+use crate::mesh_lines::run::RunPoint;
 use crate::mesh_lines::run_assembly::runs;
 use crate::mesh_lines::smooth::{between, smooth};
 use crate::mesh_lines::visibility::{Piece, Span};
@@ -64,10 +65,22 @@ pub fn spines(
     let mut found = Vec::new();
     for graph in graphs {
         let lines = view.open_lines(graph, &mut toll)?;
-        let of_graph = runs(shape, projector, graph, (&lines, false));
-        let of_graph = of_graph.into_par_iter().with_min_len(16);
-        found.par_extend(of_graph.map(|run| with_steps(run, projector)));
+        found.extend(runs(shape, projector, graph, (&lines, false)));
     }
+
+    // Add points where they lie in the world: smoothing blends neighbours in the picture and in the world alike, which
+    // over a long piece is not the same place.
+    let seen_at = |from: &RunPoint, to: &RunPoint, share: f64| {
+        let along = projector.world_share(share, [from.depth, to.depth]);
+        let world = from.world.lerp(to.world, along);
+        RunPoint {
+            place: projector.project(world),
+            depth: projector.depth(world),
+            world,
+            ..between(from, to, share)
+        }
+    };
+    found = broken_up(found, STEP_PX, &seen_at);
 
     // Join those that touch, cut them at corners, and smooth them.
     if settings.smooth {
@@ -79,46 +92,10 @@ pub fn spines(
     if settings.smooth {
         smooth(&mut found);
     }
-    if look.paint_at.is_some() {
-        found = broken_up(found);
-    }
-    let strokes = strokes_of(found, &|run: &Run, point: &RunPoint| {
-        look.paint(shape, run, point)
-    });
     Ok(ViewStrokes {
-        strokes,
+        strokes: painted(found, shape, look),
         left_out: 0,
     })
-}
-
-/// The run with points at most [`STEP_PX`] apart, each where it lies in the world.
-///
-/// Smoothing blends neighbours in the picture and in the world alike, which over a long piece is not the same place.
-fn with_steps(run: Run, projector: &Projector) -> Run {
-    let back = run.points.first().copied().filter(|_| run.closed);
-    let next = run.points.iter().skip(1).copied().chain(back);
-    let mut points = Vec::with_capacity(run.points.len());
-    for (from, to) in run.points.iter().zip(next) {
-        points.push(*from);
-        let count = (distance(from.place, to.place) / STEP_PX).ceil();
-        let depths = [from.depth, to.depth];
-        points.extend((1..count.clamp(1.0, 1e4) as u32).map(|step| {
-            let share = f64::from(step) / count;
-            let world = from
-                .world
-                .lerp(to.world, projector.world_share(share, depths));
-            RunPoint {
-                place: projector.project(world),
-                depth: projector.depth(world),
-                world,
-                ..between(from, &to, share)
-            }
-        }));
-    }
-    if !run.closed {
-        points.extend(run.points.last());
-    }
-    Run { points, ..run }
 }
 
 impl View<'_> {
