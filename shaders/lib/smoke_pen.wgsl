@@ -5,14 +5,13 @@
 
 // Points in a pixel's range of tones over which the ramp is averaged.
 const TONE_TAPS: u32 = 4u;
-// Share of a pixel up to which its line may cover it so that the tone beside it is still known.
-const LINED: f32 = 0.95;
+// Share of a pixel that its line must leave open so that the tone beside it is known.
+const LEAST_OPEN: f32 = 0.05;
 
 // Tone in a colour of unfinished smoke; negative if the outline covers it.
 fn tone_of(color: vec4<f32>) -> f32 {
-    if color.b > LINED { return -1.0; }
-    let left = 1.0 - color.b;
-    return 0.5 * (min(color.r / left, 1.0) + min(color.g / left, 1.0));
+    if color.b < LEAST_OPEN { return -1.0; }
+    return 0.5 * (min(color.r / color.b, 1.0) + min(color.g / color.b, 1.0));
 }
 
 // Tone of a neighbour, or `tone` if it has none.
@@ -42,6 +41,6 @@ fn penned(pixel: vec2<u32>, frame_px: vec2<f32>, color: vec4<f32>) -> vec4<f32> 
     let on_sheet = ink_on_sheet(pen, frame_px - compose.smoke_anchor_px, compose.smoke_tiles, tone, change);
     let ink = on_paper(pen, on_sheet, frame_px);
     light += (parts[pen].ink_color.rgb - light) * (ink * parts[pen].ink_color.a);
-    light += (compose.smoke_line.rgb - light) * color.b;
+    light = compose.smoke_line.rgb + (light - compose.smoke_line.rgb) * color.b;
     return vec4<f32>(light, color.a);
 }

@@ -21,7 +21,7 @@ use crate::model::Model;
 use crate::options::RendererOptions;
 use crate::placement::{self, Bounds};
 use crate::smoke::Smoke;
-use crate::tiles::Tiles;
+use crate::tiles::{MASK_TILE_PIXELS, TILE_PIXELS, Tiles};
 use glam::Vec3;
 use npr_core::budget::Budget;
 use npr_core::camera::Camera;
@@ -158,7 +158,12 @@ impl Needs {
             reach = reach.max(measure.reach_px(&style.smoke));
         }
         let margin = reach.min(1e4) as u32 + TILE_ROOM;
-        let tiles = Tiles::new(options.size, margin, options.tile_pixels);
+        let most = if features.mask {
+            MASK_TILE_PIXELS
+        } else {
+            TILE_PIXELS
+        };
+        let tiles = Tiles::new(options.size, margin, options.tile_pixels.min(most));
         let coarse = |side: u32| ((side as f32 / style.detect.scale).round() as u32).max(1);
         let grids = Grids {
             output: tiles.size(),

@@ -48,8 +48,8 @@ pub struct RendererOptions {
     pub smoke: Option<Smoke>,
     /// Most bytes that may be planned.
     pub memory_limit: u64,
-    /// Most pixels drawn at once, 4 million by default and at most; a larger frame is drawn in tiles. Fewer need less
-    /// memory and more time. Tiles keep at least 64 pixels a side.
+    /// Most pixels drawn at once, 8 million (4K) by default and at most, 4 million where lines are found on a mask; a
+    /// larger frame is drawn in tiles. Fewer need less memory and more time. Tiles keep at least 64 pixels a side.
     pub tile_pixels: u32,
     /// Whether [`Renderer::draw_bands`](crate::Renderer::draw_bands) draws the frame where it can: then memory is
     /// planned for a single band.

@@ -228,9 +228,29 @@ fn whole_frames_agree() {
             ..COMPOSE_FRAME
         };
         let meaning = Meaning::Elements(Element::of::<u32>());
-        let (twin, device) = (&twin.named("frame").words, &device.named("frame").words);
-        assert_eq!(disagreement(&pass, meaning, twin, device), None, "{look:?}");
+        let [of_twin, of_device] = [&twin, &device].map(|frame| &frame.named("frame").words);
+        let found = disagreement(&pass, meaning, of_twin, of_device);
+        assert_eq!(
+            found,
+            None,
+            "{look:?}; on the way:\n{}",
+            on_the_way(&twin, &device)
+        );
     }
+}
+
+/// How many words differ in what the passes made, and the first.
+fn on_the_way(twin: &Frame, device: &Frame) -> String {
+    let lines = Frame::MADE.iter().filter_map(|name| {
+        let [a, b] = [twin, device].map(|frame| &frame.named(name).words);
+        let apart = a.iter().zip(b).filter(|(a, b)| a != b).count();
+        let (at, (a, b)) = a.iter().zip(b).enumerate().find(|(_, (a, b))| a != b)?;
+        Some(format!(
+            "{name}: {apart} of {} words, first {at}: {a:#x} became {b:#x}",
+            twin.named(name).words.len()
+        ))
+    });
+    lines.collect::<Vec<_>>().join("\n")
 }
 
 /// Agreement on empty pictures would prove nothing.

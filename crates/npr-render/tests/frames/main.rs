@@ -9,3 +9,4 @@ mod costs;
 mod embedded;
 mod sequences;
 mod smoke;
+mod tiles;
