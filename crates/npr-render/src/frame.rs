@@ -2,6 +2,7 @@
 
 use crate::layer_pixel::LayerPixel;
 use npr_gpu::engine::PassTime;
+use rayon::prelude::*;
 
 /// A finished picture and how long its passes took.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -34,7 +35,8 @@ impl Frame {
 
     /// Copies a tile in, at `origin`; what lies beyond the frame is left out.
     ///
-    /// `skip` is the first texel of the tile that is copied, in each direction, and `extent` how many.
+    /// `skip` is the first texel of the tile that is copied, in each direction, and `extent` how many. Parallel over
+    /// rows.
     pub(crate) fn paste(
         &mut self,
         tile: &[u32],
@@ -44,12 +46,17 @@ impl Frame {
         extent: [u32; 2],
     ) {
         let columns = extent[0].min(self.size[0] - origin[0]) as usize;
-        for row in 0..extent[1].min(self.size[1] - origin[1]) {
-            let from = ((skip[1] + row) * tile_width + skip[0]) as usize;
-            let to = ((origin[1] + row) as usize * self.size[0] as usize + origin[0] as usize) * 4;
-            let bytes: &[u8] = bytemuck::cast_slice(&tile[from..from + columns]);
-            self.rgba[to..to + columns * 4].copy_from_slice(bytes);
-        }
+        let rows = extent[1].min(self.size[1] - origin[1]) as usize;
+        let to = origin[0] as usize * 4..(origin[0] as usize + columns) * 4;
+        let lines = self
+            .rgba
+            .par_chunks_exact_mut((self.size[0] as usize * 4).max(1));
+        let lines = lines.skip(origin[1] as usize).take(rows);
+        lines.enumerate().for_each(|(row, line)| {
+            let from = (skip[1] as usize + row) * tile_width as usize + skip[0] as usize;
+            let bytes = bytemuck::cast_slice(&tile[from..from + columns]);
+            line[to.clone()].copy_from_slice(bytes);
+        });
     }
 
     /// Adds the times of another tile.

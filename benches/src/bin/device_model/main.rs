@@ -7,6 +7,7 @@
 //! or drawing fails.
 
 mod growth;
+mod published;
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -117,6 +118,7 @@ fn main() -> Outcome<()> {
     report(&job, &engine.describe(), &rows);
     if arguments.is_empty() {
         others(&job, engine.as_ref())?;
+        published::report(engine.as_ref())?;
         growth::report(engine.as_ref())?;
     }
     Ok(())
@@ -417,6 +419,7 @@ fn others(job: &Job, engine: &dyn Engine) -> Outcome<()> {
         format!("predicted on {}, ms", newer.name),
         format!("predicted at {} GB/s, ms", GOAL.gigabytes_per_s),
         format!("measured on {adapter}, ms"),
+        "of it the slowest pass".to_owned(),
     ]);
     let mut add = |name: String, triangles: usize, size: [u32; 2], rows: &[Row]| {
         let (cost, measured_ms) = sum(rows);
@@ -428,7 +431,8 @@ fn others(job: &Job, engine: &dyn Engine) -> Outcome<()> {
             format!("{:.0}", cost.bytes() as f64 / pixel_count(size)),
         ];
         cells.extend(predicted);
-        cells.push(format!("{measured_ms:.1}"));
+        cells.push(format!("{measured_ms:.2}"));
+        cells.push(slowest(rows));
         table.add(name, cells);
     };
     for (ball, preset, setting, size) in OTHERS {
@@ -451,6 +455,15 @@ fn others(job: &Job, engine: &dyn Engine) -> Outcome<()> {
     add("plume, `smoke-cel-2`".to_owned(), 0, SMOKE_SIZE, &smoke);
     println!("{table}");
     Ok(())
+}
+
+/// The pass that takes longest, and its milliseconds.
+fn slowest(rows: &[Row]) -> String {
+    let timed = rows
+        .iter()
+        .filter_map(|row| Some((row.name, row.measured_ms?)));
+    let slowest = timed.max_by(|(_, a), (_, b)| a.total_cmp(b));
+    slowest.map_or_else(|| "-".to_owned(), |(name, ms)| format!("{name}, {ms:.2}"))
 }
 
 /// Whether a goal is met, in words.

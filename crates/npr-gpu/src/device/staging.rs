@@ -3,7 +3,11 @@
 use super::gpu::Gpu;
 use super::watch::TIME_LIMIT;
 use crate::engine::EngineError;
+use rayon::prelude::*;
 use std::sync::mpsc;
+
+/// Words that one thread copies at a time.
+const PIECE_WORDS: usize = 1 << 16;
 
 /// What a message calls the copying of results.
 const READING: &str = "the reading of results";
@@ -85,18 +89,29 @@ impl Staging {
     }
 
     /// The words of the buffer, which the processor may read until this returns.
+    ///
+    /// Parallel: most of the time goes to memory that is touched for the first time.
     fn copied(&self, gpu: &Gpu) -> Result<Vec<u32>, EngineError> {
-        let mut words = Vec::with_capacity(self.row_words * self.row_count);
+        let mut words = vec![0; self.word_count()];
         {
             let view = self
                 .buffer
                 .slice(..)
                 .get_mapped_range()
                 .map_err(|error| gpu.failed(READING, &error))?;
-            for row in view.chunks(self.row_bytes.max(1)).take(self.row_count) {
-                let (row, _) = row[..self.row_words * 4].as_chunks();
-                words.extend(row.iter().map(|bytes| u32::from_le_bytes(*bytes)));
-            }
+            let is_dense = self.row_bytes == self.row_words * 4;
+            let (piece_words, piece_bytes) = match is_dense {
+                true => (PIECE_WORDS, PIECE_WORDS * 4),
+                false => (self.row_words, self.row_bytes),
+            };
+            let pieces = words.par_chunks_mut(piece_words.max(1));
+            let filled = pieces.zip(view.par_chunks(piece_bytes.max(1)));
+            filled.for_each(|(words, bytes)| {
+                let (bytes, _) = bytes.as_chunks();
+                for (word, bytes) in words.iter_mut().zip(bytes) {
+                    *word = u32::from_le_bytes(*bytes);
+                }
+            });
         }
         self.buffer.unmap();
         Ok(words)
