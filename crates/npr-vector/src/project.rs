@@ -130,15 +130,17 @@ impl Projector {
         }
     }
 
-    /// Place along a line in the world, 0..1, from the place along its image; `depths` are those of both ends.
-    pub fn world_share(&self, image_share: f64, depths: [f64; 2]) -> f64 {
-        let [z0, z1] = depths;
-        let whole = z1 + image_share * (z0 - z1);
-        if self.perspective && whole > 0.0 {
-            image_share * z0 / whole
-        } else {
-            image_share
+    /// How images of lines are stretched.
+    pub fn lens(&self) -> Lens {
+        match self.perspective {
+            true => Lens::Perspective,
+            false => Lens::Parallel,
         }
+    }
+
+    /// [`Lens::world_share`] of this view.
+    pub fn world_share(&self, image_share: f64, depths: [f64; 2]) -> f64 {
+        self.lens().world_share(image_share, depths)
     }
 
     /// Place along a line's image, 0..1, from the place along it in the world.
@@ -149,6 +151,27 @@ impl Projector {
             world_share * z1 / whole
         } else {
             world_share
+        }
+    }
+}
+
+/// How the image of a line is stretched along it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Lens {
+    /// What is nearer takes more of the image.
+    Perspective,
+    /// Evenly.
+    Parallel,
+}
+
+impl Lens {
+    /// Place along a line in the world, 0..1, from the place along its image; `depths` are those of both ends.
+    pub fn world_share(self, image_share: f64, depths: [f64; 2]) -> f64 {
+        let [z0, z1] = depths;
+        let whole = z1 + image_share * (z0 - z1);
+        match self {
+            Self::Perspective if whole > 0.0 => image_share * z0 / whole,
+            _ => image_share,
         }
     }
 }

@@ -64,10 +64,11 @@ pub(super) fn strokes(
     let on = (&scene, view.projector, &picture);
 
     // Follow the borders between surfaces.
+    let seen = (view.shape, view.projector.lens());
     let mut strokes = Vec::new();
     if options.method == LineSource::Image {
         let runs = picture.borders(&scene, occluder_depths.as_deref()).runs(on);
-        strokes = strokes_from(runs, view.shape, settings, look);
+        strokes = strokes_from(runs, seen, settings, look);
     }
 
     // Follow the lines that are painted in textures.
@@ -81,7 +82,7 @@ pub(super) fn strokes(
         for rule in wanted.rules() {
             let mut ink = painted_lines(&scene, &picture, &lightness, &lines, &rule);
             ink.retain(|pixel| picture.is_clear(occluder_depths.as_deref(), pixel));
-            strokes.extend(strokes_from(ink.runs(on)?, view.shape, settings, look));
+            strokes.extend(strokes_from(ink.runs(on)?, seen, settings, look));
         }
     }
     Ok(strokes)

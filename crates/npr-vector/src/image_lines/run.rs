@@ -6,7 +6,7 @@ use super::ink::LineInk;
 use super::picture::{ImageScene, SurfacePicture};
 use crate::mesh_lines::draw::{LineSettings, StrokeLook, calmed, strokes_of};
 use crate::mesh_lines::run::{Run, RunPoint, base_id, number};
-use crate::project::Projector;
+use crate::project::{Lens, Projector};
 use crate::rank::hash_key;
 use crate::stroke::{Kind, Stroke};
 use crate::surface_location::{SurfaceLocation, share_along};
@@ -37,11 +37,11 @@ pub type On<'a> = (&'a ImageScene<'a>, &'a Projector, &'a SurfacePicture);
 /// as those of meshes are, as far as the settings ask for it.
 pub fn strokes_from(
     runs: Vec<Run>,
-    shape: &HalfEdgeMesh,
+    (shape, lens): (&HalfEdgeMesh, Lens),
     settings: &LineSettings,
     look: &StrokeLook<'_>,
 ) -> Vec<Stroke> {
-    strokes_of(calmed(runs, settings), &|run, point| {
+    strokes_of(calmed(runs, settings, lens), &|run, point| {
         look.paint(shape, run, point)
     })
 }

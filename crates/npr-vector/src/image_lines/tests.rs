@@ -70,7 +70,7 @@ impl Subject {
             split: None,
             memory_limit: u64::MAX,
         };
-        strokes_from(runs, &self.shape, &settings, &look)
+        strokes_from(runs, (&self.shape, self.projector.lens()), &settings, &look)
     }
 
     /// The strokes of ink.

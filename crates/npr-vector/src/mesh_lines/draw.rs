@@ -169,7 +169,8 @@ pub fn strokes_with(
     }
 
     // Make strokes, with the outline of smoke after them.
-    let mut strokes = painted(calmed(found, settings), shape, look);
+    let lens = projector.lens();
+    let mut strokes = painted(calmed(found, settings, lens), shape, look, lens);
     if let Some(smoke) = smoke {
         let seen = Seen {
             extra: None,

@@ -5,6 +5,7 @@
 
 use crate::mesh_lines::corner::{PINNED_COS, corners};
 use crate::mesh_lines::run::{Run, RunPoint, SPECK_PX, distance, location_at};
+use crate::project::Lens;
 use npr_core::math;
 use rayon::prelude::*;
 
@@ -21,16 +22,16 @@ const OUT: f64 = -0.526;
 /// Runs up to this length are thinned, in pixels; not so parts cut at corners.
 const SHORT_PX: f64 = 10.0;
 
-/// Smooths all runs in place and drops those too short to read; order is kept.
+/// Smooths all runs of a view in place and drops those too short to read; order is kept.
 ///
 /// O(length of all runs).
-pub fn smooth(runs: &mut Vec<Run>) {
+pub fn smooth(runs: &mut Vec<Run>, lens: Lens) {
     runs.retain(|run| is_part(run) || run.length() >= SPECK_PX);
     runs.par_iter_mut().with_min_len(8).for_each(|run| {
         if !is_part(run) {
             run.weight = weight_of(run.length());
         }
-        run.points = smoothed(&run.points, run.closed);
+        run.points = smoothed(&run.points, run.closed, lens);
     });
     runs.retain(|run| run.points.len() >= if run.closed { 3 } else { 2 });
 }
@@ -46,7 +47,7 @@ fn weight_of(length: f64) -> f64 {
 }
 
 /// A polyline smoothed between its corners; its first point stays the first.
-pub fn smoothed(points: &[RunPoint], closed: bool) -> Vec<RunPoint> {
+pub fn smoothed(points: &[RunPoint], closed: bool, lens: Lens) -> Vec<RunPoint> {
     if points.is_empty() {
         return Vec::new();
     }
@@ -56,7 +57,7 @@ pub fn smoothed(points: &[RunPoint], closed: bool) -> Vec<RunPoint> {
         .iter()
         .map(|corner| corner.point)
         .collect();
-    let (samples, pins) = resampled(points, closed, &corners);
+    let (samples, pins) = resampled((points, closed), &corners, lens);
     if samples.len() < 4 {
         return samples;
     }
@@ -100,7 +101,11 @@ fn relax_between(places: &mut [[f64; 2]], closed: bool, mut pins: Vec<usize>) {
 }
 
 /// Points at about equal distances along a polyline, its ends and corners included, and the indices of its corners.
-fn resampled(points: &[RunPoint], closed: bool, corners: &[usize]) -> (Vec<RunPoint>, Vec<usize>) {
+fn resampled(
+    (points, closed): (&[RunPoint], bool),
+    corners: &[usize],
+    lens: Lens,
+) -> (Vec<RunPoint>, Vec<usize>) {
     let mut path = points.to_vec();
     if closed {
         path.extend(points.first());
@@ -109,11 +114,11 @@ fn resampled(points: &[RunPoint], closed: bool, corners: &[usize]) -> (Vec<RunPo
     let mut pins = Vec::with_capacity(corners.len());
     let mut from = 0;
     for corner in corners {
-        push_even(&path[from..=*corner], &mut samples);
+        push_even(&path[from..=*corner], &mut samples, lens);
         pins.push(samples.len() - 1);
         from = *corner;
     }
-    push_even(&path[from..], &mut samples);
+    push_even(&path[from..], &mut samples, lens);
     // The last sample of a closed run is its first; that of an open one lies on what the line has come along.
     if closed && samples.len() > 1 {
         samples.pop();
@@ -126,7 +131,7 @@ fn resampled(points: &[RunPoint], closed: bool, corners: &[usize]) -> (Vec<RunPo
 }
 
 /// Adds points at equal distances along a polyline, its end included; `samples` holds its start already.
-fn push_even(path: &[RunPoint], samples: &mut Vec<RunPoint>) {
+fn push_even(path: &[RunPoint], samples: &mut Vec<RunPoint>, lens: Lens) {
     // Choose a count of even steps.
     let steps = path
         .windows(2)
@@ -155,7 +160,7 @@ fn push_even(path: &[RunPoint], samples: &mut Vec<RunPoint>) {
             0.0
         };
         mark_leap(samples, leaps.is_any_before(segment as f64 + share));
-        samples.push(between(&path[segment], &path[segment + 1], share));
+        samples.push(between(&path[segment], &path[segment + 1], share, lens));
     }
     mark_leap(samples, leaps.is_any_before((path.len() - 1) as f64));
     samples.extend(path.last());
@@ -194,27 +199,29 @@ impl<'a> Leaps<'a> {
     }
 }
 
-/// A point a share of the way from a point of a run to the next.
-pub(crate) fn between(a: &RunPoint, b: &RunPoint, share: f64) -> RunPoint {
+/// A point a share of the way from a point of a run to the next, as the picture shows it.
+pub(crate) fn between(a: &RunPoint, b: &RunPoint, share: f64, lens: Lens) -> RunPoint {
     let mix = |p: f64, q: f64| p + (q - p) * share;
+    let along = lens.world_share(share, [a.depth, b.depth]);
+    let mix_in_world = |p: f64, q: f64| p + (q - p) * along;
     let nearer = if share < 0.5 { a } else { b };
 
     // Across a leap nothing is mixed but what the picture shows.
     if a.leaps {
         return RunPoint {
             place: [0, 1].map(|i| mix(a.place[i], b.place[i])),
-            depth: mix(a.depth, b.depth),
+            depth: mix_in_world(a.depth, b.depth),
             leaps: share < 0.5,
             ..*nearer
         };
     }
     RunPoint {
         place: [0, 1].map(|i| mix(a.place[i], b.place[i])),
-        depth: mix(a.depth, b.depth),
-        world: a.world.lerp(b.world, share),
+        depth: mix_in_world(a.depth, b.depth),
+        world: a.world.lerp(b.world, along),
         edge: nearer.edge,
         t: if a.edge == b.edge {
-            mix(a.t.into(), b.t.into()) as f32
+            mix_in_world(a.t.into(), b.t.into()) as f32
         } else {
             nearer.t
         },
@@ -264,7 +271,10 @@ mod tests {
     use super::*;
     use crate::mesh_lines::corner::split;
     use crate::mesh_lines::run::testing::{ring, run_along};
+    use glam::DVec3;
     use proptest::prelude::*;
+
+    const EVEN: Lens = Lens::Parallel;
 
     fn circle(radius: f64, noise: f64) -> Vec<[f64; 2]> {
         let count = (radius * 2.0) as usize;
@@ -284,7 +294,7 @@ mod tests {
         #[test]
         fn smoothing_does_not_shrink(radius in 20.0_f64..150.0, noise in 0.0_f64..1.0) {
             let run = Run { closed: true, ..run_along(1, &circle(radius, noise)) };
-            let smooth = smoothed(&run.points, true);
+            let smooth = smoothed(&run.points, true, EVEN);
             let mean = smooth
                 .iter()
                 .map(|p| distance(p.place, [200.0; 2]))
@@ -296,13 +306,32 @@ mod tests {
             }
         }
 
+        /// A point of a long piece is the one that the picture shows there.
+        #[test]
+        fn points_of_long_pieces_lie_where_they_are_seen(
+            from in prop::array::uniform2(-5.0_f64..5.0), to in prop::array::uniform2(-5.0_f64..5.0),
+            depths in prop::array::uniform2(1.0_f64..50.0), share in 0.0_f64..1.0,
+        ) {
+            let seen = |world: DVec3| [world.x, world.y].map(|v| 100.0 * v / world.z);
+            let mut run = run_along(1, &[[0.0; 2]; 2]);
+            for (point, (at, depth)) in run.points.iter_mut().zip([from, to].into_iter().zip(depths)) {
+                point.world = DVec3::new(at[0], at[1], depth);
+                (point.place, point.depth) = (seen(point.world), depth);
+            }
+            let between = between(&run.points[0], &run.points[1], share, Lens::Perspective);
+            prop_assert!(distance(seen(between.world), between.place) < 1e-6);
+            prop_assert!((between.world.z - between.depth).abs() < 1e-9);
+            let evenly = super::between(&run.points[0], &run.points[1], share, EVEN);
+            prop_assert!((evenly.world - run.points[0].world.lerp(run.points[1].world, share)).length() < 1e-9);
+        }
+
         /// Ends and corners stay where they are.
         #[test]
         fn ends_and_corners_are_pinned(turn in 1.2_f64..2.5, length in 30.0_f64..200.0) {
             let corner = [100.0, 100.0];
             let end = [100.0 + length * turn.cos(), 100.0 + length * turn.sin()];
             let run = run_along(1, &[[100.0 - length, 100.0], corner, end]);
-            let smooth = smoothed(&run.points, false);
+            let smooth = smoothed(&run.points, false, EVEN);
             prop_assert_eq!(smooth[0].place, [100.0 - length, 100.0]);
             prop_assert!(distance(smooth[smooth.len() - 1].place, end) < 1e-9);
             let nearest = smooth
@@ -317,7 +346,7 @@ mod tests {
         fn polygons_keep_their_corners(count in 3_usize..7, radius in 20.0_f64..200.0, turned in 0_usize..7) {
             let mut run = ring(1, radius, count);
             run.points.rotate_left(turned % count);
-            let smooth = smoothed(&smoothed(&run.points, true), true);
+            let smooth = smoothed(&smoothed(&run.points, true, EVEN), true, EVEN);
             prop_assert_eq!(smooth[0].place, run.points[0].place);
             for corner in &run.points {
                 prop_assert!(smooth.iter().any(|p| p.place == corner.place), "{:?}", corner.place);
@@ -328,7 +357,7 @@ mod tests {
         #[test]
         fn circles_keep_their_size(radius in 10.0_f64..150.0) {
             let run = ring(1, radius, 40 + (radius * 3.0) as usize);
-            let smooth = smoothed(&smoothed(&run.points, true), true);
+            let smooth = smoothed(&smoothed(&run.points, true, EVEN), true, EVEN);
             for point in &smooth {
                 let off = distance(point.place, [200.0; 2]) - radius;
                 prop_assert!(off.abs() < 0.1, "{}", off);
@@ -343,7 +372,7 @@ mod tests {
             let run = run_along(1, &[[100.0 - length, 100.0], corner, end]);
             let mut parts = split(vec![run], 1.0);
             prop_assert_eq!(parts.len(), 2);
-            smooth(&mut parts);
+            smooth(&mut parts, EVEN);
             prop_assert_eq!(parts.len(), 2);
             let last = parts[0].points.len() - 1;
             prop_assert_eq!(parts[0].points[last].place, corner);
@@ -359,7 +388,7 @@ mod tests {
             run_along(2, &[[0.0, 9.0], [6.0, 9.0]]),
             run_along(3, &[[0.0, 20.0], [90.0, 20.0]]),
         ];
-        smooth(&mut runs);
+        smooth(&mut runs, EVEN);
         assert_eq!(runs.len(), 2);
         assert!(runs[0].weight < 0.95 && runs[1].weight == 1.0);
     }

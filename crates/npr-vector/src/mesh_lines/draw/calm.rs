@@ -8,9 +8,10 @@ use crate::mesh_lines::overshoot::cut_overshoot;
 use crate::mesh_lines::relabel_intersections::relabel_intersections;
 use crate::mesh_lines::run::Run;
 use crate::mesh_lines::smooth::smooth;
+use crate::project::Lens;
 
-/// Runs joined, cut at corners and smoothed, as far as the settings ask for it.
-pub(crate) fn calmed(mut found: Vec<Run>, settings: &LineSettings) -> Vec<Run> {
+/// Runs of a view joined, cut at corners and smoothed, as far as the settings ask for it.
+pub(crate) fn calmed(mut found: Vec<Run>, settings: &LineSettings, lens: Lens) -> Vec<Run> {
     if settings.smooth {
         found = merge_ends(relabel_intersections(found), TOUCHING_PX);
     }
@@ -18,9 +19,9 @@ pub(crate) fn calmed(mut found: Vec<Run>, settings: &LineSettings) -> Vec<Run> {
         found = split(found, least_turn);
     }
     if settings.smooth {
-        smooth(&mut found);
+        smooth(&mut found, lens);
         found = merge_ends(cut_overshoot(suppress(found)), FACING_PX);
-        smooth(&mut found);
+        smooth(&mut found, lens);
         found = leave_out_short_fragments(found);
     }
     found

@@ -2,6 +2,7 @@
 
 use crate::mesh_lines::run::{Run, RunPoint, distance};
 use crate::mesh_lines::smooth::between;
+use crate::project::Lens;
 use crate::stroke::{Kind, Stroke, StrokePoint};
 use npr_mesh::half_edge::HalfEdgeMesh;
 use rayon::prelude::*;
@@ -54,12 +55,8 @@ const PLAIN: PointPaint = PointPaint {
     width: 1.0,
 };
 
-/// Runs with no piece longer than `step_px`; `at` gives the point at a share of the way from one to the next.
-pub(super) fn broken_up(
-    runs: Vec<Run>,
-    step_px: f64,
-    at: &(dyn Fn(&RunPoint, &RunPoint, f64) -> RunPoint + Sync),
-) -> Vec<Run> {
+/// Runs with no piece longer than `step_px`.
+pub(super) fn broken_up(runs: Vec<Run>, step_px: f64, lens: Lens) -> Vec<Run> {
     let broken = |run: Run| {
         let back = run.points.first().copied().filter(|_| run.closed);
         let next = run.points.iter().skip(1).copied().chain(back);
@@ -68,7 +65,7 @@ pub(super) fn broken_up(
             points.push(*from);
             let count = (distance(from.place, to.place) / step_px).ceil();
             let steps = 1..count.clamp(1.0, 1e4) as u32;
-            points.extend(steps.map(|i| at(from, &to, f64::from(i) / count)));
+            points.extend(steps.map(|i| between(from, &to, f64::from(i) / count, lens)));
         }
         if !run.closed {
             points.extend(run.points.last());
@@ -83,9 +80,10 @@ pub(super) fn painted(
     mut runs: Vec<Run>,
     shape: &HalfEdgeMesh,
     look: &StrokeLook<'_>,
+    lens: Lens,
 ) -> Vec<Stroke> {
     if look.paint_at.is_some() {
-        runs = broken_up(runs, PAINT_STEP_PX, &between);
+        runs = broken_up(runs, PAINT_STEP_PX, lens);
     }
     strokes_of(runs, &|run: &Run, point: &RunPoint| {
         look.paint(shape, run, point)

@@ -11,9 +11,8 @@ use crate::mesh_lines::line::Line;
 use crate::mesh_lines::line_settings::LineSettings;
 use crate::mesh_lines::merge::{TOUCHING_PX, merge_ends};
 use crate::mesh_lines::relabel_intersections::relabel_intersections;
-use crate::mesh_lines::run::RunPoint;
 use crate::mesh_lines::run_assembly::runs;
-use crate::mesh_lines::smooth::{between, smooth};
+use crate::mesh_lines::smooth::smooth;
 use crate::mesh_lines::visibility::{Piece, Span};
 use crate::project::Projector;
 use npr_core::budget::OverBudget;
@@ -68,32 +67,21 @@ pub fn spines(
         found.extend(runs(shape, projector, graph, (&lines, false)));
     }
 
-    // Add points where they lie in the world: smoothing blends neighbours in the picture and in the world alike, which
-    // over a long piece is not the same place.
-    let seen_at = |from: &RunPoint, to: &RunPoint, share: f64| {
-        let along = projector.world_share(share, [from.depth, to.depth]);
-        let world = from.world.lerp(to.world, along);
-        RunPoint {
-            place: projector.project(world),
-            depth: projector.depth(world),
-            world,
-            ..between(from, to, share)
-        }
-    };
-    found = broken_up(found, STEP_PX, &seen_at);
-
-    // Join those that touch, cut them at corners, and smooth them.
+    // Join those that touch, cut them at corners, and smooth them; samples lie on straight ways in the world between
+    // points.
+    let lens = projector.lens();
     if settings.smooth {
         found = merge_ends(relabel_intersections(found), TOUCHING_PX);
     }
     if let Some(least_turn) = settings.split {
         found = split(found, least_turn);
     }
-    if settings.smooth {
-        smooth(&mut found);
+    match settings.smooth {
+        true => smooth(&mut found, lens),
+        false => found = broken_up(found, STEP_PX, lens),
     }
     Ok(ViewStrokes {
-        strokes: painted(found, shape, look),
+        strokes: painted(found, shape, look, lens),
         left_out: 0,
     })
 }
