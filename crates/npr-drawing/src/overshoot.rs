@@ -7,7 +7,7 @@ use npr_vector::stroke::Stroke;
 use rayon::prelude::*;
 
 /// Greatest share of a stroke's length by which an end runs on: what is short stays short.
-const LONGEST_SHARE: f64 = 0.25;
+const LONGEST_SHARE: f64 = 0.12;
 
 /// Greatest share of a stroke's length by which an end stops short, so that a third of it is left.
 const SHORT_SHARE: f64 = 1.0 / 3.0;
@@ -47,8 +47,8 @@ impl Overshoot {
 
 /// Moves the ends of the visible open strokes for which `is_moved` is true, in a picture of `size` pixels.
 ///
-/// Each end by its own share of the lengths asked for, at least half of them, which the stroke's id decides; by a
-/// quarter of its stroke's length at most, or a third where it stops short. An end runs on straight, the way that the
+/// Each end by its own share of the lengths asked for, at least half of them, which the stroke's id decides; by an
+/// eighth of its stroke's length at most, or a third where it stops short. An end runs on straight, the way that the
 /// line's last pixels go. Ends that the picture's border cuts off stay. O(points), on all threads, with the same result
 /// for any number of them.
 pub fn move_ends(

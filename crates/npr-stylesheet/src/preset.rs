@@ -94,7 +94,7 @@ const PRESETS: &[Preset] = &[
     },
     Preset {
         name: "inked",
-        version: 2,
+        version: 3,
         title: "Flat colours under black brush strokes that swell and part where they end",
         text: include_str!("../presets/inked.toml"),
     },
@@ -106,13 +106,13 @@ const PRESETS: &[Preset] = &[
     },
     Preset {
         name: "brush",
-        version: 2,
+        version: 3,
         title: "Broad strokes of a dry brush on rice paper",
         text: include_str!("../presets/brush.toml"),
     },
     Preset {
         name: "ink-wash",
-        version: 2,
+        version: 3,
         title: "A dry brush over soft grey washes on rice paper",
         text: include_str!("../presets/ink-wash.toml"),
     },
@@ -124,7 +124,7 @@ const PRESETS: &[Preset] = &[
     },
     Preset {
         name: "pencil-outline",
-        version: 2,
+        version: 3,
         title: "Flat cel colours under outlines scrawled with a soft pencil",
         text: include_str!("../presets/pencil-outline.toml"),
     },
@@ -136,7 +136,7 @@ const PRESETS: &[Preset] = &[
     },
     Preset {
         name: "chalkboard",
-        version: 2,
+        version: 3,
         title: "White chalk lines on a dark green board",
         text: include_str!("../presets/chalkboard.toml"),
     },
@@ -172,7 +172,7 @@ const PRESETS: &[Preset] = &[
     },
     Preset {
         name: "lit-lines",
-        version: 3,
+        version: 4,
         title: "Lines thin and warm where lit, heavy and cool in the shade, \
                 bright where light from behind catches them",
         text: include_str!("../presets/lit-lines.toml"),
@@ -278,6 +278,12 @@ const OLDER: &[Preset] = &[
         text: include_str!("../presets/older/brush-1.toml"),
     },
     Preset {
+        name: "brush",
+        version: 2,
+        title: "Broad strokes of a dry brush on rice paper",
+        text: include_str!("../presets/older/brush-2.toml"),
+    },
+    Preset {
         name: "cel-2",
         version: 1,
         title: "Two flat tones under thin lines, as painted on a cel",
@@ -306,6 +312,12 @@ const OLDER: &[Preset] = &[
         version: 1,
         title: "White chalk lines on a dark green board",
         text: include_str!("../presets/older/chalkboard-1.toml"),
+    },
+    Preset {
+        name: "chalkboard",
+        version: 2,
+        title: "White chalk lines on a dark green board",
+        text: include_str!("../presets/older/chalkboard-2.toml"),
     },
     Preset {
         name: "charcoal",
@@ -434,10 +446,22 @@ const OLDER: &[Preset] = &[
         text: include_str!("../presets/older/ink-wash-1.toml"),
     },
     Preset {
+        name: "ink-wash",
+        version: 2,
+        title: "A dry brush over soft grey washes on rice paper",
+        text: include_str!("../presets/older/ink-wash-2.toml"),
+    },
+    Preset {
         name: "inked",
         version: 1,
         title: "Flat colours under black brush strokes that swell and part where they end",
         text: include_str!("../presets/older/inked-1.toml"),
+    },
+    Preset {
+        name: "inked",
+        version: 2,
+        title: "Flat colours under black brush strokes that swell and part where they end",
+        text: include_str!("../presets/older/inked-2.toml"),
     },
     Preset {
         name: "lit-lines",
@@ -452,6 +476,13 @@ const OLDER: &[Preset] = &[
         title: "Lines thin and warm where lit, heavy and cool in the shade, \
                 bright where light from behind catches them",
         text: include_str!("../presets/older/lit-lines-2.toml"),
+    },
+    Preset {
+        name: "lit-lines",
+        version: 3,
+        title: "Lines thin and warm where lit, heavy and cool in the shade, \
+                bright where light from behind catches them",
+        text: include_str!("../presets/older/lit-lines-3.toml"),
     },
     Preset {
         name: "manga",
@@ -494,6 +525,12 @@ const OLDER: &[Preset] = &[
         version: 1,
         title: "Flat cel colours under outlines scrawled with a soft pencil",
         text: include_str!("../presets/older/pencil-outline-1.toml"),
+    },
+    Preset {
+        name: "pencil-outline",
+        version: 2,
+        title: "Flat cel colours under outlines scrawled with a soft pencil",
+        text: include_str!("../presets/older/pencil-outline-2.toml"),
     },
     Preset {
         name: "screentone",

@@ -67,7 +67,13 @@ fn a_lone_stroke_runs_to_points_and_is_whole_between() {
 #[test]
 fn a_line_that_ends_on_another_keeps_its_width_there() {
     let bar = stroke(&[[100.0, 20.0], [100.0, 140.0]], 6.0);
-    for (away, is_met) in [(0.0, true), (2.9, true), (3.1, false), (9.0, false)] {
+    for (away, is_met) in [
+        (0.0, true),
+        (2.9, true),
+        (8.9, true),
+        (9.1, false),
+        (20.0, false),
+    ] {
         let line = stroke(&[[20.0, 80.0], [100.0 - away, 80.0]], 6.0);
         let drawn = tapered(vec![bar.clone(), line], &PLAIN);
         assert_eq!(
@@ -223,7 +229,7 @@ fn is_met(strokes: &[Stroke], (number, is_end): (usize, bool), slack: f64) -> bo
             let count = stroke.points.len();
             (0..count - usize::from(!stroke.closed)).any(|piece| {
                 let [a, b] = [&stroke.points[piece], &stroke.points[(piece + 1) % count]];
-                let touch = (0.5 * a.width).max(1.0);
+                let touch = 3.0 * (0.5 * a.width).max(1.0);
                 let length = distance(a.position, b.position);
                 let from_end = if is_end {
                     own.length() - along - length

@@ -4,6 +4,7 @@
 //! of all lines, finds their visible parts, joins those that continue each other, and smooths.
 
 mod calm;
+mod even_paint;
 mod paint;
 mod prepared;
 mod spines;

@@ -1,5 +1,6 @@
 //! Turns runs into strokes, with colours and widths along them.
 
+use super::even_paint::even_out;
 use crate::mesh_lines::run::{Run, RunPoint, distance};
 use crate::mesh_lines::smooth::between;
 use crate::project::Lens;
@@ -75,7 +76,7 @@ pub(super) fn broken_up(runs: Vec<Run>, step_px: f64, lens: Lens) -> Vec<Run> {
     runs.into_par_iter().with_min_len(16).map(broken).collect()
 }
 
-/// Runs as strokes, painted; in more points where colours change from place to place.
+/// Runs as strokes, painted; where colours change from place to place in more points, and evened out.
 pub(super) fn painted(
     mut runs: Vec<Run>,
     shape: &HalfEdgeMesh,
@@ -85,9 +86,13 @@ pub(super) fn painted(
     if look.paint_at.is_some() {
         runs = broken_up(runs, PAINT_STEP_PX, lens);
     }
-    strokes_of(runs, &|run: &Run, point: &RunPoint| {
+    let mut strokes = strokes_of(runs, &|run: &Run, point: &RunPoint| {
         look.paint(shape, run, point)
-    })
+    });
+    if look.paint_at.is_some() {
+        strokes.par_iter_mut().for_each(even_out);
+    }
+    strokes
 }
 
 /// Runs as strokes, in their order; `paint_at` gives colour and whole width in pixels at a point of a run.

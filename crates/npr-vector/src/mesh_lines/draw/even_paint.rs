@@ -1,0 +1,192 @@
+//! Evens out colours and widths along strokes.
+
+use crate::stroke::{Stroke, StrokePoint};
+
+/// Pixels along a stroke to either side over which its paint is averaged: normals of scans jump from face to face, so
+/// that light would change a line every few pixels, and no pen does.
+const REACH_PX: f64 = 14.0;
+
+/// Gives each point of a stroke the mean paint of the stretch around it: colours by alpha, widths by length.
+///
+/// Where a point has no colour, or one near it, its colour stays. Whatever is even along the stroke stays as it is.
+/// O(points): the points of a stretch are few.
+pub(super) fn even_out(stroke: &mut Stroke) {
+    let points = &stroke.points;
+    let count = points.len();
+    let is_even = points
+        .windows(2)
+        .all(|pair| (pair[0].color, pair[0].width) == (pair[1].color, pair[1].width));
+    if is_even {
+        return;
+    }
+    let means: Vec<(Option<[u8; 4]>, f64)> = (0..count)
+        .map(|at| {
+            let mut mean = Mean::default();
+            let gaps = [1, count - 1].map(|step| walk(stroke, at, step, &mut mean));
+            mean.add(
+                &points[at],
+                (0.5 * (gaps[0] + gaps[1])).max(f64::MIN_POSITIVE),
+            );
+            (mean.color().or(points[at].color), mean.width())
+        })
+        .collect();
+    for (point, (color, width)) in stroke.points.iter_mut().zip(means) {
+        (point.color, point.width) = (color, width);
+    }
+}
+
+/// Adds the points on one side of a point and gives the way to the first of them, 0 where there is none; `step` is 1, or
+/// the number of points less 1 for the other side.
+fn walk(stroke: &Stroke, from: usize, step: usize, mean: &mut Mean) -> f64 {
+    let (points, count) = (&stroke.points, stroke.points.len());
+    let (mut at, mut passed, mut first) = (from, 0.0, 0.0);
+    for _ in 1..count {
+        let next = (at + step) % count;
+        let is_seam = at.abs_diff(next) != 1 || count == 2 && (step == 1) != (next > at);
+        if is_seam && !stroke.closed {
+            break;
+        }
+        let [a, b] = [at, next].map(|i| points[i].position);
+        let gap = (a[0] - b[0]).hypot(a[1] - b[1]);
+        passed += gap;
+        if at == from {
+            first = gap;
+        }
+        if passed > REACH_PX {
+            break;
+        }
+        // Near points count more, so that what is left of a jump is a slope.
+        mean.add(&points[next], gap * (1.0 - passed / REACH_PX));
+        at = next;
+    }
+    first
+}
+
+/// A mean of paint.
+#[derive(Debug, Default)]
+struct Mean {
+    weight: f64,
+    width: f64,
+    /// Colours times alpha, then alpha.
+    color: [f64; 4],
+    is_colorless: bool,
+}
+
+impl Mean {
+    fn add(&mut self, point: &StrokePoint, weight: f64) {
+        self.weight += weight;
+        self.width += point.width * weight;
+        let Some(color) = point.color else {
+            self.is_colorless = true;
+            return;
+        };
+        let [r, g, b, alpha] = color.map(f64::from);
+        for (sum, value) in self
+            .color
+            .iter_mut()
+            .zip([r * alpha, g * alpha, b * alpha, alpha])
+        {
+            *sum += value * weight;
+        }
+    }
+
+    fn width(&self) -> f64 {
+        self.width / self.weight
+    }
+
+    /// None where a point has no colour, or nothing is seen of any.
+    fn color(&self) -> Option<[u8; 4]> {
+        let [r, g, b, alpha] = self.color;
+        let is_seen = !self.is_colorless && alpha > 0.0;
+        is_seen.then(|| {
+            let [r, g, b] = [r, g, b].map(|sum| (sum / alpha).round() as u8);
+            [r, g, b, (alpha / self.weight).round() as u8]
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh_lines::draw::PointPaint;
+    use crate::mesh_lines::draw::paint::strokes_of;
+    use crate::mesh_lines::run::testing::{ring, run_along};
+    use proptest::prelude::*;
+
+    const BLACK: [u8; 4] = [0, 0, 0, 255];
+    const WHITE: [u8; 4] = [255; 4];
+
+    fn painted(closed: bool, count: usize, paint: impl Fn(usize) -> ([u8; 4], f64)) -> Stroke {
+        let run = match closed {
+            true => ring(1, count as f64, count),
+            false => run_along(
+                1,
+                &(0..count)
+                    .map(|i| [3.0 * i as f64, 0.0])
+                    .collect::<Vec<_>>(),
+            ),
+        };
+        let plain = PointPaint {
+            color: None,
+            width: 1.0,
+        };
+        let mut stroke = strokes_of(vec![run], &|_, _| plain).remove(0);
+        for (i, point) in stroke.points.iter_mut().enumerate() {
+            let (color, width) = paint(i);
+            (point.color, point.width) = (Some(color), width);
+        }
+        stroke
+    }
+
+    /// The greatest step of lightness from point to point.
+    fn steepest(stroke: &Stroke) -> u8 {
+        let tones = |point: &StrokePoint| point.color.map_or(0, |color| color[0]);
+        let pairs = stroke.points.windows(2);
+        pairs
+            .map(|pair| tones(&pair[0]).abs_diff(tones(&pair[1])))
+            .max()
+            .unwrap_or(0)
+    }
+
+    #[test]
+    fn what_flips_from_point_to_point_becomes_even() {
+        for closed in [false, true] {
+            let flips = |i: usize| (if i % 2 == 0 { BLACK } else { WHITE }, 1.0 + (i % 2) as f64);
+            let mut stroke = painted(closed, 40, flips);
+            assert_eq!(steepest(&stroke), 255);
+            even_out(&mut stroke);
+            assert!(steepest(&stroke) < 60, "{}", steepest(&stroke));
+            let middle = &stroke.points[20];
+            assert!((middle.width - 1.5).abs() < 0.15, "{}", middle.width);
+        }
+    }
+
+    #[test]
+    fn a_jump_becomes_a_slope_and_both_sides_stay() {
+        let mut stroke = painted(false, 40, |i| (if i < 20 { BLACK } else { WHITE }, 2.0));
+        even_out(&mut stroke);
+        assert!(steepest(&stroke) < 80, "{}", steepest(&stroke));
+        let ends = [0, 39].map(|i| stroke.points[i].color);
+        assert_eq!(ends, [Some(BLACK), Some(WHITE)]);
+    }
+
+    proptest! {
+        /// What is even stays, bit for bit, and means lie between what there was.
+        #[test]
+        fn means_lie_within(
+            closed: bool, paints in prop::collection::vec((any::<[u8; 4]>(), 0.0..9.0_f64), 3..40),
+        ) {
+            let mut even = painted(closed, paints.len(), |_| paints[0]);
+            let before = even.clone();
+            even_out(&mut even);
+            prop_assert_eq!(even, before);
+            let mut stroke = painted(closed, paints.len(), |i| paints[i]);
+            even_out(&mut stroke);
+            let widths = || paints.iter().map(|(_, width)| *width);
+            let (least, most) = (widths().fold(f64::MAX, f64::min), widths().fold(0.0, f64::max));
+            for point in &stroke.points {
+                prop_assert!(point.width >= least - 1e-9 && point.width <= most + 1e-9);
+            }
+        }
+    }
+}
