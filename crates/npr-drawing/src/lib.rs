@@ -51,6 +51,7 @@ mod page;
 pub mod pdf;
 pub mod plot;
 pub mod pressure;
+pub mod room;
 pub mod sampled;
 mod seed;
 mod stamped;

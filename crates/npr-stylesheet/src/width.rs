@@ -125,6 +125,11 @@ pub struct Width {
     /// Length under which a line that meets no other thins out; half as long it is gone; default 0, which draws all. 12
     /// clears scans of specks, 40 keeps long lines alone.
     pub short: Length,
+    /// Share of the way to a line beside it that ink may take, 0..1; default 0.6. 0 leaves widths alone, 0.4 keeps
+    /// springs and railings airy. Of methods `strokes` and `potrace` and of drawings as curves, by points of
+    /// smoothed lines; not with `line.visibility` sampled.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub room: f32,
     /// How lines thin out towards their ends.
     pub taper: Taper,
     /// Factors along strokes, from their start to their end, up to 16 sorted by `at`, joined by a smooth curve; default
@@ -148,6 +153,7 @@ impl Default for Width {
             texture: None,
             control_points: Vec::new(),
             short: Length::ref_px(0.0),
+            room: 0.6,
             taper: Taper::default(),
             pressure: Vec::new(),
             depth: WidthDepth::default(),

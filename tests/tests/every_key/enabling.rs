@@ -160,6 +160,11 @@ const ENABLING: &[(&str, &[&str], &str)] = &[
         "other lines meet that of the ball",
     ),
     (
+        "line.width.room",
+        &["line.width.base='12px'"],
+        "lines need a neighbour",
+    ),
+    (
         "line.width.pressure",
         &["line.width.pressure=[{ at = 0.1, factor = 0.6 }, { at = 0.9, factor = 1.4 }]"],
         "a curve needs stops",

@@ -7,6 +7,7 @@ use npr_drawing::dash::{Dash, cut_to_dashes};
 use npr_drawing::hand::{Hand, draw_by_hand};
 use npr_drawing::overshoot::{Overshoot, move_ends};
 use npr_drawing::pressure::{Curve, Pressure, press_strokes};
+use npr_drawing::room::leave_room;
 use npr_drawing::stubs::remove_stubs;
 use npr_drawing::taper::{Taper, taper_strokes};
 use npr_stylesheet::{Length, Style, TaperEnds, WidthStop};
@@ -43,6 +44,8 @@ pub(crate) struct Expression {
     least_px: [f64; 2],
     overshoot: Overshoot,
     pressure: Pressure,
+    /// Share of the way to a line beside it that ink may take; 0 for all.
+    room: f64,
     taper: Taper,
     hand: Hand,
     dash: Dash,
@@ -71,6 +74,7 @@ impl Expression {
                 short_px: px(hand.undershoot),
             },
             pressure,
+            room: f64::from(style.line.width.room),
             taper: taper_of(style, &px),
             hand: Hand {
                 wobble_px: px(hand.wobble),
@@ -103,6 +107,7 @@ impl Expression {
                 along: Curve::default(),
                 ..self.pressure
             },
+            room: 0.0,
             taper: none,
             hand: self.hand,
             dash: Dash {
@@ -165,6 +170,7 @@ impl Expression {
             move_ends(strokes, size, &self.overshoot, &is_drawn);
         }
         press_strokes(strokes, &self.pressure, &is_drawn);
+        leave_room(strokes, self.room, &is_drawn);
         taper_strokes(strokes, size, &taper, &is_drawn);
 
         // Let them sway, and cut them.

@@ -394,6 +394,7 @@ pub(super) const ENTRIES: &[Entry] = &[
     of_methods(
         &[
             "line.width.short",
+            "line.width.room",
             "line.width.taper",
             "line.width.pressure",
             "line.width.depth",

@@ -151,7 +151,12 @@ mod tests {
     #[test]
     fn what_flips_from_point_to_point_becomes_even() {
         for closed in [false, true] {
-            let flips = |i: usize| (if i % 2 == 0 { BLACK } else { WHITE }, 1.0 + (i % 2) as f64);
+            let flips = |i: usize| {
+                (
+                    if i.is_multiple_of(2) { BLACK } else { WHITE },
+                    1.0 + (i % 2) as f64,
+                )
+            };
             let mut stroke = painted(closed, 40, flips);
             assert_eq!(steepest(&stroke), 255);
             even_out(&mut stroke);
