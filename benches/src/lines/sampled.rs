@@ -67,6 +67,7 @@ pub fn sampled_drawing(
     let look = StrokeLook {
         width_at: &|_| 1.0,
         paint_at: None,
+        is_lit: false,
     };
     let found = spines(shape, &prepared, &projector, &settings, &contours, &look);
     let open = Drawing {

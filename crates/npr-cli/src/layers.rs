@@ -71,13 +71,15 @@ fn channels_of(rgba: Vec<u8>, layers: Vec<LayerPixel>) -> SmallVec<[AnyChannel<F
         let lights = layers.iter().map(|pixel| f16::from_f32(pixel.line[i]));
         AnyChannel::new(name, FlatSamples::F16(lights.collect()))
     });
-    let floats: [(&str, Value); 6] = [
+    let floats: [(&str, Value); 8] = [
         ("depth.Z", |pixel| pixel.depth),
         ("normal.X", |pixel| pixel.normal[0]),
         ("normal.Y", |pixel| pixel.normal[1]),
         ("normal.Z", |pixel| pixel.normal[2]),
         ("id.object", |pixel| pixel.object as f32),
         ("id.line", |pixel| pixel.stroke as f32),
+        ("uv.U", |pixel| pixel.uv[0]),
+        ("uv.V", |pixel| pixel.uv[1]),
     ];
     let floats = floats.into_iter().map(|(name, of)| {
         let values = layers.iter().map(of);
@@ -101,10 +103,18 @@ pub enum DebugLayer {
     Object,
     /// A colour for every stroke.
     Stroke,
+    /// Places on strokes: red rises along them, anew every 64 pixels, and green from their left edge to their right.
+    Uv,
 }
 
 /// Grey under lines that are shown alone, as an sRGB byte.
 const UNDER_LINES: u8 = 128;
+
+/// Pixels along a stroke over which its red rises.
+const UV_PX: f32 = 64.0;
+
+/// Blue of all strokes there, so that none is black.
+const UV_BLUE: u8 = 96;
 
 /// Share of white that the farthest surface keeps.
 const FARTHEST: f32 = 0.1;
@@ -147,6 +157,11 @@ impl DebugLayer {
                 Self::Normal => pixel.normal.map(|n| byte(0.5 + 0.5 * n)),
                 Self::Object => color_of(pixel.object),
                 Self::Stroke => color_of(pixel.stroke),
+                Self::Uv if pixel.stroke == 0 => [0; 3],
+                Self::Uv => {
+                    let [u, v] = pixel.uv;
+                    [byte((u / UV_PX).fract()), byte(0.5 + 0.5 * v), UV_BLUE]
+                }
             }
         };
         let colors = layers.iter().map(shown);
@@ -179,6 +194,7 @@ mod tests {
             normal: [0.0; 3],
             object: 1,
             stroke: 2,
+            uv: [3.0, -0.5],
         };
         let frame = Frame {
             size: [2, 1],

@@ -21,4 +21,5 @@ pub(crate) mod screen_lines;
 pub(crate) mod shadows;
 pub(crate) mod smoke;
 pub(crate) mod speed_lines;
+pub(crate) mod stroke_places;
 pub(crate) mod strokes;

@@ -16,6 +16,8 @@ pub struct LayerPixel {
     pub object: u32,
     /// Number of the stroke that shows, counted from 1 in every frame; 0 where none does.
     pub stroke: u32,
+    /// Where on that stroke: pixels along it from its start, and across, -1 at its left edge and 1 at its right.
+    pub uv: [f32; 2],
 }
 
 impl LayerPixel {
@@ -29,6 +31,7 @@ impl LayerPixel {
         normal: [0.0; 3],
         object: 0,
         stroke: 0,
+        uv: [0.0; 2],
     };
 }
 

@@ -2,9 +2,9 @@
 
 use crate::error::RenderError;
 use crate::features::blending::Blending;
-use crate::features::compositing::stroke_numbers;
 use crate::features::lettering::Lettering;
 use crate::features::speed_lines::SpeedLines;
+use crate::features::stroke_places::{StrokePlace, stroke_places};
 use crate::features::strokes::{self, FoundStrokes, StrokeReport};
 use crate::frame::Frame;
 use crate::frame_graph::pixel_count;
@@ -54,8 +54,8 @@ pub(crate) struct Begun {
     aimed: Aimed,
     /// How its strokes were found.
     strokes: StrokeReport,
-    /// The number of the stroke at every pixel, where layers have them.
-    stroke_numbers: Vec<u32>,
+    /// What every pixel shows of strokes, where layers have that.
+    stroke_places: Vec<StrokePlace>,
     /// The same frame in the other look of a blend.
     other: Option<Box<Begun>>,
 }
@@ -327,18 +327,18 @@ impl<'a> Renderer<'a> {
             None => None,
         };
         let options = &self.frames.plan.options;
-        let stroke_numbers = match options.layers && !found.seen.is_empty() {
+        let stroke_places = match options.layers && !found.seen.is_empty() {
             true => {
                 let base_px = self.frames.base_px(&aimed.view, camera, self.model);
                 let inked = (self.frames.plan.styled(), base_px);
-                stroke_numbers(found.seen, &aimed.view, inked, options.size)
+                stroke_places(found.seen, &aimed.view, inked, options.size)
             }
             false => Vec::new(),
         };
         Ok(Begun {
             aimed,
             strokes,
-            stroke_numbers,
+            stroke_places,
             other,
         })
     }
@@ -358,9 +358,9 @@ impl<'a> Renderer<'a> {
             self.frames.take_tile(aimed, at, &mut frame)?;
             self.tell_of(&tiles, origin);
         }
-        for (pixel, number) in frame.layers.iter_mut().zip(&begun.stroke_numbers) {
+        for (pixel, place) in frame.layers.iter_mut().zip(&begun.stroke_places) {
             if pixel.line[3] > 0.0 {
-                pixel.stroke = *number;
+                (pixel.stroke, pixel.uv) = (place.number, place.uv);
             }
         }
         begun.strokes.tell(&mut frame);

@@ -193,6 +193,7 @@ const LAYERS_OF_NOTHING: LayerPixel = LayerPixel {
     normal: [0.0; 3],
     object: 0,
     stroke: 0,
+    uv: [0.0; 2],
 };
 
 #[test]

@@ -2,13 +2,13 @@
 
 use crate::workplace::Workplace;
 use std::cmp::Reverse;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Two triangles in objects of their own, the right one farther away.
 const PAIR: &[u8] = b"o Left\nv -2 0 0\nv -0.5 0 0\nv -2 2 0\nf 1 2 3\n\
     o Right\nv 0.5 0 -3\nv 2 0 -3\nv 2 2 -3\nf 4 5 6\n";
 
-const LAYERS: [&str; 5] = ["line", "depth", "normal", "object", "stroke"];
+const LAYERS: [&str; 6] = ["line", "depth", "normal", "object", "stroke", "uv"];
 
 /// The colours of a layer's picture, the most frequent first.
 fn colors(layer: &str) -> Vec<[u8; 3]> {
@@ -51,6 +51,15 @@ fn layers_show_what_they_are_about() {
     assert_eq!(colors("depth"), [[0; 3], [255; 3], [26; 3]]);
     // The outline of each is one stroke.
     assert_eq!(colors("stroke").len(), 3);
+    // Both sides of strokes, and all of the way along them.
+    let places = colors("uv");
+    let [reds, greens] = [0, 1].map(|k| {
+        let of_strokes = places.iter().filter(|color| color[2] == 96);
+        of_strokes
+            .map(|color| color[k] / 32)
+            .collect::<BTreeSet<u8>>()
+    });
+    assert!(reds.len() == 8 && greens.len() >= 6, "{reds:?} {greens:?}");
     // Dark lines over grey.
     let lines = colors("line");
     assert_eq!(lines[0], [128; 3]);

@@ -111,6 +111,8 @@ fn a_file_of_layers_holds_the_picture_and_what_it_is_made_of() {
         "normal.X",
         "normal.Y",
         "normal.Z",
+        "uv.U",
+        "uv.V",
     ];
     assert_eq!(names, wanted);
     for (name, samples) in &layers.channels {

@@ -2,12 +2,10 @@
 //! pixel.
 
 use super::line_features::LineFeatures;
-use super::strokes;
 use crate::error::RenderError;
 use crate::frame::Frame;
 use crate::frame_graph::{FrameGraph, Grids, Layers, pixel_count, write};
 use crate::layer_pixel::{LayerPixel, line_between};
-use crate::look::StyledModel;
 use crate::model::Model;
 use crate::tiles::Tiles;
 use npr_core::budget::Budget;
@@ -19,9 +17,6 @@ use npr_gpu::engine::{EngineError, Readings, Session};
 use npr_gpu::graph::{Graph, ResourceId};
 use npr_style::compose::Compose;
 use npr_stylesheet::{OutlineMethod, Style};
-use npr_vector::brush::Brushes;
-use npr_vector::stroke::Drawing;
-use npr_vector::stroke_ink;
 use rayon::prelude::*;
 
 /// Bytes of a pixel on the host: its layers, as much again for whoever writes them, and the numbers of strokes with
@@ -253,36 +248,4 @@ impl Tile<'_> {
         }
         nearest
     }
-}
-
-/// The number of the stroke that shows at every pixel of a frame, counted from 1; 0 where none does.
-///
-/// Strokes are drawn once more, on the processor, with their numbers in the place of their colours: the same one wins
-/// at every pixel, but for rounding on devices.
-pub(crate) fn stroke_numbers(
-    mut drawings: Vec<Drawing>,
-    view: &View,
-    (styled, base_px): (&StyledModel, f32),
-    size: [u32; 2],
-) -> Vec<u32> {
-    // Give every stroke its number.
-    let strokes = drawings.iter_mut().flat_map(|drawing| &mut drawing.strokes);
-    for (number, stroke) in (1u32..).zip(strokes) {
-        let [low, middle, high, _] = number.to_le_bytes();
-        for point in &mut stroke.points {
-            point.color = Some([low, middle, high, 255]);
-        }
-    }
-
-    // Draw them.
-    let window = Window::over(view.frame_px, [0.0; 2], view.frame_px, size);
-    let points = strokes::points_of(&drawings, view, (&styled.brushes, base_px));
-    let brushes = Brushes {
-        all: &styled.brushes.all,
-        texels: styled.textures.words(),
-    };
-    let [mut numbers, mut keys] = [0, 1].map(|_| vec![0; pixel_count(size)]);
-    stroke_ink::draw(&window, (&points, brushes), &mut numbers, &mut keys);
-    numbers.iter_mut().for_each(|number| *number &= 0x00ff_ffff);
-    numbers
 }

@@ -60,6 +60,12 @@ pub(super) fn is_painted(style: &Style) -> bool {
     style.line_paint_flags() != 0
 }
 
+/// Whether they hang on the light.
+pub(super) fn is_lit(style: &Style) -> bool {
+    let by_light = Part::LINE_LIGHT | Part::LINE_OPACITY | Part::LINE_RIM | Part::LINE_WIDTH;
+    style.line_paint_flags() & by_light != 0
+}
+
 impl<'a> StrokeColors<'a> {
     /// Prepares the colours for a view of `size` pixels; `normals` and `front` are those of the shape.
     pub fn new(

@@ -556,6 +556,7 @@ impl LineModel {
         let look = StrokeLook {
             width_at: &|vertex| widths.at(vertex),
             paint_at: (view.changes || view.colors.is_some()).then_some(&paint_at),
+            is_lit: colors::is_lit(style),
         };
         let line = (&settings, paint, &look);
 

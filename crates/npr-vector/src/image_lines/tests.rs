@@ -60,6 +60,7 @@ impl Subject {
         let look = StrokeLook {
             width_at: &|_| 2.0,
             paint_at: None,
+            is_lit: false,
         };
         let settings = LineSettings {
             size,

@@ -64,6 +64,7 @@ pub fn strokes(
     let look = StrokeLook {
         width_at,
         paint_at: None,
+        is_lit: false,
     };
 
     // Draw without a limit of memory.

@@ -43,6 +43,7 @@ fn drawn(
     let look = StrokeLook {
         width_at: &|_| 2.0,
         paint_at: None,
+        is_lit: false,
     };
     strokes_with(
         shape, &prepared, &projector, &settings, &contours, &look, None,

@@ -1,5 +1,6 @@
 //! Evens out colours and widths along strokes.
 
+use crate::mesh_lines::run::distance;
 use crate::stroke::{Stroke, StrokePoint};
 
 /// Pixels along a stroke to either side over which its paint is averaged: normals of scans jump from face to face, so
@@ -8,7 +9,8 @@ const REACH_PX: f64 = 14.0;
 
 /// Gives each point of a stroke the mean paint of the stretch around it: colours by alpha, widths by length.
 ///
-/// Where a point has no colour, or one near it, its colour stays. Whatever is even along the stroke stays as it is.
+/// Towards ends stretches are shorter, so that what changes evenly stays as it is, as does what is even. Where a point
+/// has no colour, or one near it, its colour stays.
 /// O(points): the points of a stretch are few.
 pub(super) fn even_out(stroke: &mut Stroke) {
     let points = &stroke.points;
@@ -19,10 +21,16 @@ pub(super) fn even_out(stroke: &mut Stroke) {
     if is_even {
         return;
     }
+    let ways = ways(stroke);
+    let length = ways.last().copied().unwrap_or_default();
     let means: Vec<(Option<[u8; 4]>, f64)> = (0..count)
         .map(|at| {
             let mut mean = Mean::default();
-            let gaps = [1, count - 1].map(|step| walk(stroke, at, step, &mut mean));
+            let reach = match stroke.closed {
+                true => REACH_PX,
+                false => REACH_PX.min(ways[at]).min(length - ways[at]),
+            };
+            let gaps = [1, count - 1].map(|step| walk(stroke, (at, step), reach, &mut mean));
             mean.add(
                 &points[at],
                 (0.5 * (gaps[0] + gaps[1])).max(f64::MIN_POSITIVE),
@@ -35,9 +43,19 @@ pub(super) fn even_out(stroke: &mut Stroke) {
     }
 }
 
-/// Adds the points on one side of a point and gives the way to the first of them, 0 where there is none; `step` is 1, or
-/// the number of points less 1 for the other side.
-fn walk(stroke: &Stroke, from: usize, step: usize, mean: &mut Mean) -> f64 {
+/// Pixels along a stroke from its start to each of its points.
+fn ways(stroke: &Stroke) -> Vec<f64> {
+    let mut way = 0.0;
+    let steps = stroke.points.windows(2).map(|pair| {
+        way += distance(pair[0].position, pair[1].position);
+        way
+    });
+    std::iter::once(0.0).chain(steps).collect()
+}
+
+/// Adds the points within `reach` on one side of a point and gives the way to the first of them, 0 where there is none;
+/// `step` is 1, or the number of points less 1 for the other side.
+fn walk(stroke: &Stroke, (from, step): (usize, usize), reach: f64, mean: &mut Mean) -> f64 {
     let (points, count) = (&stroke.points, stroke.points.len());
     let (mut at, mut passed, mut first) = (from, 0.0, 0.0);
     for _ in 1..count {
@@ -46,17 +64,16 @@ fn walk(stroke: &Stroke, from: usize, step: usize, mean: &mut Mean) -> f64 {
         if is_seam && !stroke.closed {
             break;
         }
-        let [a, b] = [at, next].map(|i| points[i].position);
-        let gap = (a[0] - b[0]).hypot(a[1] - b[1]);
+        let gap = distance(points[at].position, points[next].position);
         passed += gap;
         if at == from {
             first = gap;
         }
-        if passed > REACH_PX {
+        if passed > reach {
             break;
         }
         // Near points count more, so that what is left of a jump is a slope.
-        mean.add(&points[next], gap * (1.0 - passed / REACH_PX));
+        mean.add(&points[next], gap * (1.0 - passed / reach));
         at = next;
     }
     first
@@ -160,6 +177,10 @@ mod tests {
             let mut stroke = painted(closed, 40, flips);
             assert_eq!(steepest(&stroke), 255);
             even_out(&mut stroke);
+            // The last pixels at open ends have short stretches.
+            let ends = if closed { 0 } else { 4 };
+            stroke.points.drain(..ends);
+            stroke.points.truncate(40 - 2 * ends);
             assert!(steepest(&stroke) < 60, "{}", steepest(&stroke));
             let middle = &stroke.points[20];
             assert!((middle.width - 1.5).abs() < 0.15, "{}", middle.width);

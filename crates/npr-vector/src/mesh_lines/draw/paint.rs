@@ -27,6 +27,8 @@ pub struct StrokeLook<'a> {
     pub width_at: &'a (dyn Fn(u32) -> f32 + Sync),
     /// Colours and factors on widths, where they change from place to place. Long pieces get more points then.
     pub paint_at: Option<PaintAt<'a>>,
+    /// Whether that hangs on normals, which jump from face to face, so that paint is evened out along strokes.
+    pub is_lit: bool,
 }
 
 impl StrokeLook<'_> {
@@ -76,7 +78,7 @@ pub(super) fn broken_up(runs: Vec<Run>, step_px: f64, lens: Lens) -> Vec<Run> {
     runs.into_par_iter().with_min_len(16).map(broken).collect()
 }
 
-/// Runs as strokes, painted; where colours change from place to place in more points, and evened out.
+/// Runs as strokes, painted; where colours change from place to place in more points.
 pub(super) fn painted(
     mut runs: Vec<Run>,
     shape: &HalfEdgeMesh,
@@ -89,7 +91,7 @@ pub(super) fn painted(
     let mut strokes = strokes_of(runs, &|run: &Run, point: &RunPoint| {
         look.paint(shape, run, point)
     });
-    if look.paint_at.is_some() {
+    if look.is_lit {
         strokes.par_iter_mut().for_each(even_out);
     }
     strokes

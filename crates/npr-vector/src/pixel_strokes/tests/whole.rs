@@ -48,6 +48,7 @@ fn strokes(
     let look = StrokeLook {
         width_at: &|_| 2.0,
         paint_at: None,
+        is_lit: false,
     };
     let loops = Loops::new(&traced, path);
     traced.strokes(shape, &projector, &loops, None, &look)

@@ -1,0 +1,187 @@
+//! Which stroke shows at every pixel of a frame, and where on it the pixel lies.
+
+use super::strokes;
+use crate::frame_graph::pixel_count;
+use crate::look::StyledModel;
+use npr_core::window::{View, Window};
+use npr_vector::brush::Brushes;
+use npr_vector::stroke::{Drawing, Stroke, StrokePoint};
+use npr_vector::stroke_ink;
+
+/// Pixels beyond the edge of a stroke that it still tints.
+const FRINGE_PX: f64 = 1.0;
+
+/// What a pixel shows of a stroke.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct StrokePlace {
+    /// Its number, counted from 1; 0 where none shows.
+    pub number: u32,
+    /// Pixels along it, and across: -1 at its left edge, 1 at its right.
+    pub uv: [f32; 2],
+}
+
+/// What every pixel of a frame of `size` shows of strokes.
+///
+/// Strokes are drawn once more, on the processor, with their numbers in the place of their colours: the same one wins
+/// at every pixel, but for rounding on devices. Then each looks for its pixels along itself. O(pixels + ink).
+pub(crate) fn stroke_places(
+    mut drawings: Vec<Drawing>,
+    view: &View,
+    (styled, base_px): (&StyledModel, f32),
+    size: [u32; 2],
+) -> Vec<StrokePlace> {
+    // Give every stroke its number.
+    let strokes = drawings.iter_mut().flat_map(|drawing| &mut drawing.strokes);
+    for (number, stroke) in (1u32..).zip(strokes) {
+        let [low, middle, high, _] = number.to_le_bytes();
+        for point in &mut stroke.points {
+            point.color = Some([low, middle, high, 255]);
+        }
+    }
+
+    // Draw them.
+    let window = Window::over(view.frame_px, [0.0; 2], view.frame_px, size);
+    let points = strokes::points_of(&drawings, view, (&styled.brushes, base_px));
+    let brushes = Brushes {
+        all: &styled.brushes.all,
+        texels: styled.textures.words(),
+    };
+    let [mut numbers, mut keys] = [0, 1].map(|_| vec![0; pixel_count(size)]);
+    stroke_ink::draw(&window, (&points, brushes), &mut numbers, &mut keys);
+
+    // Look for the place of every pixel on its stroke.
+    let place = |number: &u32| StrokePlace {
+        number: number & 0x00ff_ffff,
+        ..StrokePlace::default()
+    };
+    let mut places: Vec<StrokePlace> = numbers.iter().map(place).collect();
+    let strokes = drawings.iter().flat_map(|drawing| &drawing.strokes);
+    let mut nearest = vec![f64::INFINITY; places.len()];
+    for (number, stroke) in (1u32..).zip(strokes) {
+        let mut picture = Picture {
+            size,
+            places: &mut places,
+            nearest: &mut nearest,
+        };
+        picture.find(number, stroke);
+    }
+    places
+}
+
+/// The pixels whose places are looked for.
+struct Picture<'a> {
+    size: [u32; 2],
+    places: &'a mut [StrokePlace],
+    /// Distance of each from the piece that its place is on, in pixels.
+    nearest: &'a mut [f64],
+}
+
+impl Picture<'_> {
+    /// Finds the places of the pixels of one stroke.
+    fn find(&mut self, number: u32, stroke: &Stroke) {
+        if !stroke.is_visible() {
+            return;
+        }
+        let back = stroke.points.first().filter(|_| stroke.closed);
+        let points: Vec<&StrokePoint> = stroke.points.iter().chain(back).collect();
+        let mut along = 0.0;
+        for pair in points.windows(2) {
+            along += self.find_on(number, [pair[0], pair[1]], along);
+        }
+    }
+
+    /// Finds those whose nearest piece is this one, `along` pixels from the start of the stroke; gives its length.
+    fn find_on(&mut self, number: u32, [from, to]: [&StrokePoint; 2], along: f64) -> f64 {
+        // Bound the piece.
+        let way = [0, 1].map(|k| to.position[k] - from.position[k]);
+        let length = way[0].hypot(way[1]);
+        let reach = 0.5 * from.width.max(to.width) + FRINGE_PX;
+        if !(length > 0.0 && length.is_finite() && reach.is_finite()) {
+            return 0.0;
+        }
+        let bound = |k: usize| {
+            let [a, b] = [from.position[k], to.position[k]];
+            let most = f64::from(self.size[k]);
+            let [low, high] = [a.min(b) - reach, a.max(b) + reach].map(|v| v.clamp(0.0, most));
+            low as u32..high.ceil() as u32
+        };
+
+        // Look at the pixels around.
+        for (x, y) in bound(1).flat_map(|y| bound(0).map(move |x| (x, y))) {
+            let at = y as usize * self.size[0] as usize + x as usize;
+            if self.places[at].number != number {
+                continue;
+            }
+            let middle = [x, y].map(|v| f64::from(v) + 0.5);
+            let off = [0, 1].map(|k| middle[k] - from.position[k]);
+            let share = ((off[0] * way[0] + off[1] * way[1]) / (length * length)).clamp(0.0, 1.0);
+            let beside = [0, 1].map(|k| off[k] - way[k] * share);
+            let distance = beside[0].hypot(beside[1]);
+            if distance < self.nearest[at] {
+                self.nearest[at] = distance;
+                let side = way[0] * off[1] - way[1] * off[0];
+                let half = 0.5 * (from.width + (to.width - from.width) * share);
+                let across = (distance / half).min(1.0).copysign(side);
+                self.places[at].uv = [along + length * share, across].map(|v| v as f32);
+            }
+        }
+        length
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use npr_core::line_kind::Kind;
+
+    fn point(x: f64, y: f64, width: f64) -> StrokePoint {
+        StrokePoint {
+            position: [x, y],
+            depth: 1.0,
+            width,
+            u: 0.0,
+            world: [0.0; 3],
+            color: None,
+        }
+    }
+
+    /// A stroke that goes right and turns down: `u` is the way along it, `v` negative on its left.
+    #[test]
+    fn pixels_lie_along_and_across_their_stroke() {
+        let corner = [
+            point(2.0, 5.0, 6.0),
+            point(12.0, 5.0, 6.0),
+            point(12.0, 15.0, 6.0),
+        ];
+        let stroke = Stroke {
+            id: 1,
+            kind: Kind::Contour,
+            occluders: 0,
+            surface: 0,
+            closed: false,
+            points: corner.to_vec(),
+        };
+        let size = [20, 20];
+        let own = StrokePlace {
+            number: 3,
+            ..StrokePlace::default()
+        };
+        let mut places = vec![own; 400];
+        places[4 * 20 + 7].number = 2;
+        let mut nearest = vec![f64::INFINITY; 400];
+        let mut picture = Picture {
+            size,
+            places: &mut places,
+            nearest: &mut nearest,
+        };
+        picture.find(3, &stroke);
+        let uv = |x: usize, y: usize| places[y * 20 + x].uv;
+        // Over the level part is its left, below it its right, half a pixel from the middle.
+        assert_eq!(uv(6, 4), [4.5, -0.5 / 3.0]);
+        assert_eq!(uv(6, 6), [4.5, 1.5 / 3.0]);
+        // Right of the part that goes down is its left.
+        assert_eq!(uv(12, 10), [15.5, -0.5 / 3.0]);
+        // Pixels of other strokes, and those out of reach, stay as they are.
+        assert_eq!((uv(7, 4), uv(1, 18)), ([0.0; 2], [0.0; 2]));
+    }
+}
