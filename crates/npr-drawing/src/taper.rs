@@ -152,8 +152,8 @@ fn thin(stroke: &mut Stroke, length: f64, reach: [f64; 2], taper: &Taper) {
 /// Distance from a point, in pixels, within which no other is added.
 const TOO_NEAR_PX: f64 = 1e-3;
 
-/// Half widths of a line within which it meets an end: a pen that stops beside a line is not lifted before it, and where
-/// two outlines meet at a corner without touching, tapers would leave the form open.
+/// Half widths of a line within which it meets an end: a pen that stops beside a line is not lifted before it, and
+/// where two outlines meet at a corner without touching, tapers would leave the form open.
 const MET: f64 = 3.0;
 
 /// For the start and the end of every stroke whether a visible line or the border of the picture meets it.
