@@ -48,9 +48,9 @@ struct Sample {
 /// more than `share` of the way between their middles, 0..1; 0 leaves all as it is.
 ///
 /// A line keeps at least 0.3 of its width, and where two lie nearer than a quarter of a width apart, which is one line
-/// to the eye, both keep theirs. Widths change along strokes within some 14 pixels, so nothing jumps. Strokes count at their
-/// points, so long pieces without any are not seen. O(points), on all threads, with the same result for any number of
-/// them.
+/// to the eye, both keep theirs. Widths change along strokes within some 14 pixels, so nothing jumps. Strokes count at
+/// their points, so long pieces without any are not seen. O(points), on all threads, with the same result for any
+/// number of them.
 pub fn leave_room(strokes: &mut [Stroke], share: f64, is_drawn: impl Fn(&Stroke) -> bool + Sync) {
     if share.is_nan() || share <= 0.0 {
         return;

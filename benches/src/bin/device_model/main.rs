@@ -30,8 +30,8 @@ use npr_stylesheet::Style;
 /// Runs behind every time.
 const RUNS: usize = 5;
 
-/// How long the best time of frames must stand before any is kept, and how long that is waited for: cards that have been
-/// idle raise their clocks while they work.
+/// How long the best time of frames must stand before any is kept, and how long that is waited for: cards that have
+/// been idle raise their clocks while they work.
 const SETTLED: Duration = Duration::from_millis(400);
 const MOST_WARMING: Duration = Duration::from_secs(3);
 

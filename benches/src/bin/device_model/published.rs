@@ -1,4 +1,5 @@
-//! Frames whose times were published, measured on the adapter that is there: passes alone, without what a processor does.
+//! Frames whose times were published, measured on the adapter that is there: passes alone, without what a processor
+//! does.
 
 use npr_benches::cost::{Cost as Fit, Sample};
 use npr_benches::subject::{Subject, bunny_path};

@@ -2,7 +2,8 @@
 //!
 //! If a pen or the tones of a picture finish the smoke, the smoke passes draw [`TONES`] instead of colours: red and
 //! green hold the tone, blue how much the outline leaves open: sRGB bytes tell small shares apart best, and little
-//! light beside dark ink shows most. So they need no ramps, tiles and pens, which the last pass holds for surfaces anyway.
+//! light beside dark ink shows most. So they need no ramps, tiles and pens, which the last pass holds for surfaces
+//! anyway.
 
 use npr_core::geometry::Part;
 
