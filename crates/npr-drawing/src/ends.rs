@@ -64,7 +64,7 @@ pub(crate) fn meetings_at<'a>(
     strokes: &'a [Stroke],
     (reach, least_px): (f64, f64),
 ) -> impl ParallelIterator<Item = Meeting> + 'a {
-    let places = Places::new(places);
+    let places = Cells::new(CELL_PX, places.map(|place| (place.position, place)));
     let visible = strokes.par_iter().enumerate();
     let visible = visible.filter(|(_, stroke)| stroke.is_visible());
     visible.flat_map_iter(move |(number, stroke)| {
@@ -149,32 +149,32 @@ fn ends_of<'a>(strokes: &'a [Stroke], lengths: &'a [f64]) -> impl Iterator<Item 
 /// Width of a cell, in pixels.
 const CELL_PX: f64 = 16.0;
 
-/// Places of strokes by cells of the picture.
-struct Places {
-    cells: HashMap<[i32; 2], Vec<Place>, FixedState>,
+/// Things that lie at places, by square cells of the picture.
+pub(crate) struct Cells<T> {
+    side: f64,
+    cells: HashMap<[i32; 2], Vec<T>, FixedState>,
 }
 
-impl Places {
-    fn new(places: impl Iterator<Item = Place>) -> Self {
-        let mut cells: HashMap<[i32; 2], Vec<Place>, FixedState> = HashMap::default();
-        for place in places {
-            cells
-                .entry(cell_of(place.position))
-                .or_default()
-                .push(place);
+impl<T> Cells<T> {
+    /// Things with their places, in cells `side` pixels wide.
+    pub fn new(side: f64, things: impl Iterator<Item = ([f64; 2], T)>) -> Self {
+        let mut cells: HashMap<[i32; 2], Vec<T>, FixedState> = HashMap::default();
+        for (position, thing) in things {
+            let cell = cell_of(position, side);
+            cells.entry(cell).or_default().push(thing);
         }
-        Self { cells }
+        Self { side, cells }
     }
 
-    /// Calls `visit` with all places within `reach` of a straight piece, and with some around; none of pieces that are
+    /// Calls `visit` with all things within `reach` of a straight piece, and with some around; none of pieces that are
     /// not finite.
-    fn near(&self, a: [f64; 2], b: [f64; 2], reach: f64, mut visit: impl FnMut(&Place)) {
+    pub fn near(&self, a: [f64; 2], b: [f64; 2], reach: f64, mut visit: impl FnMut(&T)) {
         // Walk along the piece, a cell's width a step.
         let length = distance(a, b);
         if length.is_nan() || length > LONGEST_PX {
             return;
         }
-        let steps = (length / CELL_PX).ceil().max(1.0) as usize;
+        let steps = (length / self.side).ceil().max(1.0) as usize;
         let at = |step: usize| {
             let share = step as f64 / steps as f64;
             [0, 1].map(|i| a[i] + (b[i] - a[i]) * share)
@@ -182,8 +182,8 @@ impl Places {
         for step in 0..steps {
             // Visit the cells that it comes near in this step.
             let (from, to) = (at(step), at(step + 1));
-            let low = cell_of([0, 1].map(|i| from[i].min(to[i]) - reach));
-            let high = cell_of([0, 1].map(|i| from[i].max(to[i]) + reach));
+            let low = cell_of([0, 1].map(|i| from[i].min(to[i]) - reach), self.side);
+            let high = cell_of([0, 1].map(|i| from[i].max(to[i]) + reach), self.side);
             for y in low[1]..=high[1] {
                 for x in low[0]..=high[0] {
                     let there = self.cells.get(&[x, y]);
@@ -197,6 +197,6 @@ impl Places {
 /// Longest piece of a line, in pixels, that is looked at.
 const LONGEST_PX: f64 = 1e6;
 
-fn cell_of(position: [f64; 2]) -> [i32; 2] {
-    position.map(|v| (v / CELL_PX).floor() as i32)
+fn cell_of(position: [f64; 2], side: f64) -> [i32; 2] {
+    position.map(|v| (v / side).floor() as i32)
 }

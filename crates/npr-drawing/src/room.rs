@@ -3,9 +3,7 @@
 //! A pen that draws a spring or a railing is held lighter than one that draws an outline: lines as wide as the way
 //! between them would run into one black patch.
 
-use std::collections::HashMap;
-
-use foldhash::fast::FixedState;
+use crate::ends::Cells;
 use npr_vector::mesh_lines::run::distance;
 use npr_vector::stroke::Stroke;
 use rayon::prelude::*;
@@ -18,6 +16,9 @@ const CELL_PX: f64 = 12.0;
 
 /// Widest line that is looked for from its neighbours, in pixels.
 const WIDEST_PX: f64 = 24.0;
+
+/// Greatest distance at which neighbours are looked for, in pixels.
+const FARTHEST_PX: f64 = 4.0 * WIDEST_PX;
 
 /// Least share of its width that a line keeps.
 const LEAST: f64 = 0.3;
@@ -66,12 +67,10 @@ pub fn leave_room(strokes: &mut [Stroke], share: f64, is_drawn: impl Fn(&Stroke)
             },
         )
         .collect();
-    let mut cells: HashMap<[i32; 2], Vec<Sample>, FixedState> = HashMap::default();
-    let mut widest: f64 = 0.0;
-    for sample in samples.iter().flatten() {
-        cells.entry(cell_of(sample.at)).or_default().push(*sample);
-        widest = widest.max(sample.width.min(WIDEST_PX));
-    }
+    let all = || samples.iter().flatten();
+    let cells = Cells::new(CELL_PX, all().map(|sample| (sample.at, *sample)));
+    let widest = all().map(|sample| sample.width.min(WIDEST_PX));
+    let widest = widest.fold(0.0, f64::max);
 
     // Thin each where another is near.
     let lengths: Vec<f64> = strokes.par_iter().map(Stroke::length).collect();
@@ -80,10 +79,13 @@ pub fn leave_room(strokes: &mut [Stroke], share: f64, is_drawn: impl Fn(&Stroke)
         let ring = stroke.closed.then_some(*length);
         let left = |sample: &Sample| {
             let reach = (sample.width + widest) / (2.0 * share);
-            let near = near(&cells, sample.at, reach);
-            let beside = near.filter_map(|other| beside(sample, other, ring));
-            let shares = beside.map(|(away, other)| left_of(away, [sample.width, other], share));
-            shares.fold(1.0, f64::min)
+            let mut least: f64 = 1.0;
+            cells.near(sample.at, sample.at, reach.min(FARTHEST_PX), |other| {
+                if let Some((away, width)) = beside(sample, other, ring) {
+                    least = least.min(left_of(away, [sample.width, width], share));
+                }
+            });
+            least
         };
         let left: Vec<[f64; 2]> = samples.iter().map(|of| [of.way, left(of)]).collect();
         if left.iter().any(|[_, left]| *left < 1.0) {
@@ -119,19 +121,6 @@ fn samples_of(stroke: &Stroke, number: u32) -> Vec<Sample> {
         }
     }
     samples
-}
-
-/// The samples within `reach` of a place, and some around.
-fn near(
-    cells: &HashMap<[i32; 2], Vec<Sample>, FixedState>,
-    at: [f64; 2],
-    reach: f64,
-) -> impl Iterator<Item = &Sample> {
-    let reach = reach.min(4.0 * WIDEST_PX);
-    let [low, high] = [-reach, reach].map(|by| cell_of(at.map(|v| v + by)));
-    let rows = low[1]..=high[1];
-    let all = rows.flat_map(move |y| (low[0]..=high[0]).map(move |x| [x, y]));
-    all.filter_map(|cell| cells.get(&cell)).flatten()
 }
 
 /// How far away, and how wide, a line is that runs beside a place; none that crosses or that is the same stretch of the
@@ -197,10 +186,6 @@ fn thin(stroke: &mut Stroke, left: &[[f64; 2]]) {
         };
         point.width *= share.clamp(LEAST, 1.0);
     }
-}
-
-fn cell_of(at: [f64; 2]) -> [i32; 2] {
-    at.map(|v| (v / CELL_PX).floor() as i32)
 }
 
 #[cfg(test)]

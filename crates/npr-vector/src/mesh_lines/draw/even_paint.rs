@@ -21,14 +21,13 @@ pub(super) fn even_out(stroke: &mut Stroke) {
     if is_even {
         return;
     }
-    let ways = ways(stroke);
-    let length = ways.last().copied().unwrap_or_default();
+    let length = points.last().map_or(0.0, |last| last.u);
     let means: Vec<(Option<[u8; 4]>, f64)> = (0..count)
         .map(|at| {
             let mut mean = Mean::default();
             let reach = match stroke.closed {
                 true => REACH_PX,
-                false => REACH_PX.min(ways[at]).min(length - ways[at]),
+                false => REACH_PX.min(points[at].u).min(length - points[at].u),
             };
             let gaps = [1, count - 1].map(|step| walk(stroke, (at, step), reach, &mut mean));
             mean.add(
@@ -41,16 +40,6 @@ pub(super) fn even_out(stroke: &mut Stroke) {
     for (point, (color, width)) in stroke.points.iter_mut().zip(means) {
         (point.color, point.width) = (color, width);
     }
-}
-
-/// Pixels along a stroke from its start to each of its points.
-fn ways(stroke: &Stroke) -> Vec<f64> {
-    let mut way = 0.0;
-    let steps = stroke.points.windows(2).map(|pair| {
-        way += distance(pair[0].position, pair[1].position);
-        way
-    });
-    std::iter::once(0.0).chain(steps).collect()
 }
 
 /// Adds the points within `reach` on one side of a point and gives the way to the first of them, 0 where there is none;
