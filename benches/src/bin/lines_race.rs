@@ -90,9 +90,11 @@ fn timed_draw(model: &LineModel, camera: &Camera) -> Outcome<(f64, Drawing)> {
         smooth: false,
         ..LineOptions::new(SIZE)
     };
-    // Line Art's lines have one width; swelling with curvature would be more work than it does.
+    // Line Art's lines have one width; swelling with curvature, and making room between lines, would be more work than
+    // it does.
     let mut style = Style::default();
     style.line.width.source = WidthSource::Constant;
+    style.line.width.room = 0.0;
     let mut drawing = None;
     let ms = elapsed_ms(|| drawing = Some(model.draw(camera, &style, &options)));
     Ok((ms, drawing.transpose()?.unwrap_or_default()))

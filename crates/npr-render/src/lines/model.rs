@@ -232,8 +232,11 @@ impl LineModel {
         options: &LineOptions,
         behind: Option<&Frame>,
     ) -> Result<Drawing, RenderError> {
-        let find = &mut OnProcessor(&self.shape);
-        self.draw_with(camera, style, options, behind, find)
+        // Within the threads that share the work, so that each step does not wait for one of them to wake.
+        rayon::scope(|_| {
+            let find = &mut OnProcessor(&self.shape);
+            self.draw_with(camera, style, options, behind, find)
+        })
     }
 
     /// The brushes with which a style draws the lines of this model in files that have them

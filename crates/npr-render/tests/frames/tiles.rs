@@ -14,6 +14,8 @@ use npr_stylesheet::{LineVisibility, Style, presets};
 /// Most bytes that every device of WebGPU binds as one buffer.
 const BINDING_BYTES: usize = 128 << 20;
 
+const FRAME_4K: [u32; 2] = [3840, 2160];
+
 /// Longest side of an image there.
 const IMAGE_SIDE: u32 = 8192;
 
@@ -40,9 +42,9 @@ impl Engine for Asked {
     }
 }
 
-/// What a frame of 4K in a style asks of a device.
-fn asked_for(style: &Style) -> Vec<Resource> {
-    let sheet = Sheet::new(3).glb();
+/// What a frame in a style asks of a device: of a sheet so many cells wide, with smoke.
+pub(crate) fn asked_for(style: &Style, size: [u32; 2], side: u32) -> Vec<Resource> {
+    let sheet = Sheet::new(side).glb();
     let resources = MemoryResources::default();
     let scene = load_bytes("sheet", &sheet, None, &resources, &Limits::default()).unwrap();
     let options = RendererOptions {
@@ -50,7 +52,7 @@ fn asked_for(style: &Style) -> Vec<Resource> {
             spheres: vec![Sphere::new([1.0; 3], 0.5)],
             space: Some(([-1.0; 3], [3.0; 3])),
         }),
-        ..RendererOptions::new([3840, 2160])
+        ..RendererOptions::new(size)
     };
     let engine = Asked::default();
     let model = Model::new(&scene).unwrap();
@@ -69,7 +71,7 @@ fn pixels_of(resources: &[Resource]) -> usize {
 fn every_device_binds_what_a_frame_of_4k_needs() {
     for preset in presets() {
         let style = Style::preset(preset.name).unwrap();
-        for resource in asked_for(&style) {
+        for resource in asked_for(&style, FRAME_4K, 3) {
             let what = format!("{}: {}", preset.name, resource.name);
             match resource.kind {
                 Kind::Image { size, .. } => assert!(size[0].max(size[1]) <= IMAGE_SIDE, "{what}"),
@@ -82,10 +84,10 @@ fn every_device_binds_what_a_frame_of_4k_needs() {
 #[test]
 fn a_frame_of_4k_is_drawn_whole_where_lines_are_strokes() {
     let mut style = Style::preset("toon").unwrap();
-    assert_eq!(pixels_of(&asked_for(&style)), 3840 * 2160);
+    assert_eq!(pixels_of(&asked_for(&style, FRAME_4K, 3)), 3840 * 2160);
     style.line.visibility = LineVisibility::Sampled;
-    let sampled = asked_for(&style);
+    let sampled = asked_for(&style, FRAME_4K, 3);
     assert!(sampled.iter().any(|of| of.name == "samples of lines"));
     style.set("line.method=shape").unwrap();
-    assert!(pixels_of(&asked_for(&style)) < 3840 * 2160);
+    assert!(pixels_of(&asked_for(&style, FRAME_4K, 3)) < 3840 * 2160);
 }

@@ -1,5 +1,6 @@
 //! The faces of a shape in a bounding volume hierarchy, and how many of them hide a point.
 
+use crate::mesh_lines::visibility::NEAR_SHARE;
 use glam::{DVec3, Vec4};
 use npr_mesh::half_edge::HalfEdgeMesh;
 use obvhs::Boundable;
@@ -18,7 +19,7 @@ pub const NEARER: f64 = 2.5e-7;
 /// A hierarchy over all faces of a shape, for any number of views.
 #[derive(Clone)]
 pub struct FaceTree {
-    /// One leaf holds one face; `primitive_indices` names it.
+    /// A leaf holds a few faces that follow each other; `primitive_indices` names them.
     pub(crate) bvh: Bvh2,
     /// Largest coordinate, for the rounding of box tests.
     extent: f32,
@@ -30,12 +31,58 @@ impl std::fmt::Debug for FaceTree {
     }
 }
 
-/// The box of a face.
-struct FaceBox(Aabb);
+/// Most faces in a leaf.
+const LEAF: usize = 4;
 
-impl Boundable for FaceBox {
+/// How much larger than two boxes together one around both may be for their faces to share a leaf, in surface.
+const LOOSE: f32 = 2.0;
+
+/// Faces that follow each other, with a box around them.
+#[derive(Clone, Copy)]
+struct Clump {
+    bounds: Aabb,
+    first: u32,
+    count: u32,
+}
+
+impl Boundable for Clump {
     fn aabb(&self) -> Aabb {
-        self.0
+        self.bounds
+    }
+}
+
+impl Clump {
+    /// Both in one, where that leaves the box close.
+    fn joined(&self, next: &Self) -> Option<Self> {
+        let bounds = self.bounds.union(&next.bounds);
+        let apart = self.bounds.half_area() + next.bounds.half_area();
+        (bounds.half_area() <= LOOSE * apart).then_some(Self {
+            bounds,
+            first: self.first,
+            count: self.count + next.count,
+        })
+    }
+
+    /// Up to [`LEAF`] faces in clumps; files mostly list neighbours one after the other.
+    fn of(shape: &HalfEdgeMesh, first: u32) -> impl Iterator<Item = Self> {
+        let mut clumps = [None; LEAF];
+        for (clump, face) in clumps.iter_mut().zip(first..shape.faces.len() as u32) {
+            let corners = shape.faces[face as usize].map(|v| shape.positions[v as usize]);
+            *clump = Some(Self {
+                bounds: box_of(corners),
+                first: face,
+                count: 1,
+            });
+        }
+        for [one, other] in [[0, 1], [2, 3], [0, 2]] {
+            if let (Some(a), Some(b)) = (clumps[one], clumps[other])
+                && a.first + a.count == b.first
+                && let Some(joined) = a.joined(&b)
+            {
+                (clumps[one], clumps[other]) = (Some(joined), None);
+            }
+        }
+        clumps.into_iter().flatten()
     }
 }
 
@@ -53,23 +100,34 @@ pub struct Sight {
 impl FaceTree {
     /// Builds the hierarchy; O(n log n), on all threads.
     pub fn new(shape: &HalfEdgeMesh) -> Self {
-        let boxes: Vec<FaceBox> = shape
-            .faces
-            .par_iter()
-            .map(|corners| FaceBox(box_of(corners.map(|v| shape.positions[v as usize]))))
+        // Put neighbours into leaves.
+        let starts = (0..shape.faces.len().div_ceil(LEAF) as u32)
+            .into_par_iter()
+            .with_min_len(1024);
+        let clumps: Vec<Clump> = starts
+            .flat_map_iter(|start| Clump::of(shape, LEAF as u32 * start))
             .collect();
-        let extent = boxes.iter().fold(0.0_f32, |extent, FaceBox(b)| {
-            let [low, high] = bounds(b);
+        let extent = clumps.iter().fold(0.0_f32, |extent, clump| {
+            let [low, high] = bounds(&clump.bounds);
             extent.max(low.abs().max(high.abs()).max_element())
         });
-        let indices = (0..boxes.len() as u32).collect();
-        let bvh = PlocBuilder::new().build(
+
+        // Sort the leaves.
+        let indices = (0..clumps.len() as u32).collect();
+        let mut bvh = PlocBuilder::new().build(
             PlocSearchDistance::VeryLow,
-            &boxes,
+            &clumps,
             indices,
             SortPrecision::U64,
             0,
         );
+
+        // Let them name faces.
+        for leaf in bvh.nodes.iter_mut().filter(|node| node.is_leaf()) {
+            let clump = &clumps[bvh.primitive_indices[leaf.first_index as usize] as usize];
+            (leaf.first_index, leaf.prim_count) = (clump.first, clump.count);
+        }
+        bvh.primitive_indices = (0..shape.faces.len() as u32).collect();
         Self { bvh, extent }
     }
 
@@ -147,7 +205,7 @@ impl FaceTree {
     }
 
     /// Where the line between two vertices goes through faces that it does not touch: shares 0..1 from the first,
-    /// ascending.
+    /// ascending, and a hair before and beyond.
     pub fn piercings(&self, shape: &HalfEdgeMesh, [from, to]: [u32; 2]) -> Vec<f64> {
         let touches = |face: u32| {
             let corners = shape.faces[face as usize];
@@ -157,7 +215,7 @@ impl FaceTree {
     }
 
     /// Where the way between two points goes through faces that are not in `skip`: shares 0..1 from the first,
-    /// ascending.
+    /// ascending, and a hair before and beyond.
     pub fn piercings_between(
         &self,
         shape: &HalfEdgeMesh,
@@ -169,7 +227,7 @@ impl FaceTree {
         self.along(from, direction, |face| {
             if !skip(face) {
                 let place = crossing(shape, face, from, direction);
-                places.extend(place.filter(|t| (0.0..=1.0).contains(t)));
+                places.extend(place.filter(|t| (-NEAR_SHARE..=1.0 + NEAR_SHARE).contains(t)));
             }
             true
         });
@@ -206,24 +264,25 @@ impl FaceTree {
                 continue;
             }
             let [one, other] = [node.first_index, node.first_index + 1];
-            let [a, b] = [one, other].map(|child| slab.enter(nodes[child as usize].aabb()));
+            let enter = |child: u32| slab.enter(nodes[child as usize].aabb());
+            let (a, b) = (enter(one), enter(other));
             // The nearer child comes off the stack first: what hides a point is often close to the eye.
-            let order = if a <= b {
-                [(b, other), (a, one)]
+            let (far, near) = if a <= b {
+                ((b, other), (a, one))
             } else {
-                [(a, one), (b, other)]
+                ((a, one), (b, other))
             };
-            stack.extend(
-                order
-                    .iter()
-                    .filter(|(enter, _)| enter.is_finite())
-                    .map(|(_, child)| child),
-            );
+            for (enter, child) in [far, near] {
+                if enter.is_finite() {
+                    stack.push(child);
+                }
+            }
         }
     }
 }
 
-fn box_of(corners: [[f32; 3]; 3]) -> Aabb {
+/// The box of a face.
+pub(crate) fn box_of(corners: [[f32; 3]; 3]) -> Aabb {
     let [a, b, c] = corners.map(|[x, y, z]| Vec4::new(x, y, z, 0.0));
     bytemuck::cast([a.min(b).min(c), a.max(b).max(c)])
 }
@@ -267,7 +326,8 @@ impl Slab {
 
     /// Where the way enters a box, as a share 0..1; infinite where it misses it.
     fn enter(&self, b: &Aabb) -> f32 {
-        let [low, high] = bounds(b);
+        // What the fourth components of the box hold is never read.
+        let [low, high]: [Vec4; 2] = bytemuck::cast(*b);
         let low = (low - self.origins[0]) * self.inverse;
         let high = (high - self.origins[1]) * self.inverse;
         // The fourth components bound the way itself: it starts at 0 and ends at 1.

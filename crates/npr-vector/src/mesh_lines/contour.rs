@@ -8,11 +8,16 @@
 pub mod steps;
 
 use crate::mesh_lines::graph::{CurveGraph, CurveNode};
+use glam::Vec4;
 use npr_core::edge_flags::EdgeFlags;
 use npr_core::geometry::NONE;
 use npr_core::line_kind::KindSet;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use rayon::prelude::*;
+use std::ops::{Add, Mul, Sub};
+
+/// Faces that a thread takes at once.
+const CHUNK: usize = 4096;
 
 /// The eye of a view, as decisions about facing read it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,25 +43,32 @@ impl Eye {
     /// turned to the eye.
     ///
     /// Sums, differences and products only, so that both engines decide alike.
-    pub fn height_over(&self, [a, b, c]: [[f32; 3]; 3]) -> f32 {
-        let u = self.scaled_difference(b, a);
-        let v = self.scaled_difference(c, a);
-        dot(cross(u, v), self.toward(a))
+    pub fn height_over(&self, corners: [[f32; 3]; 3]) -> f32 {
+        self.heights_over(corners, |v| v)
     }
 
-    /// From a point to the eye, scaled; the direction towards the eye in parallel view.
-    fn toward(&self, from: [f32; 3]) -> [f32; 3] {
+    /// [`Eye::height_over`] of one face or of several side by side; `all` gives a number to each.
+    fn heights_over<T: Lanes>(&self, [a, b, c]: [[T; 3]; 3], all: impl Fn(f32) -> T) -> T {
+        let scale = all(self.scale);
+        let difference = |to: [T; 3]| std::array::from_fn(|i| (to[i] - a[i]) * scale);
+        // From a corner to the eye, or the direction towards the eye in parallel view, which has no length to scale.
         let [x, y, z, w] = self.position;
-        let d = [x - from[0] * w, y - from[1] * w, z - from[2] * w];
-        // A direction has no length to scale.
-        let scale = if w == 0.0 { 1.0 } else { self.scale };
-        d.map(|v| v * scale)
+        let scale = all(if w == 0.0 { 1.0 } else { self.scale });
+        let toward = [x, y, z].map(&all);
+        let toward = std::array::from_fn(|i| (toward[i] - a[i] * all(w)) * scale);
+        dot(cross(difference(b), difference(c)), toward)
     }
 
     fn scaled_difference(&self, to: [f32; 3], from: [f32; 3]) -> [f32; 3] {
         std::array::from_fn(|i| (to[i] - from[i]) * self.scale)
     }
 }
+
+/// A number, or several side by side.
+trait Lanes: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {}
+
+impl Lanes for f32 {}
+impl Lanes for Vec4 {}
 
 /// Room for the nodes of a view's contours by the number of faces: a power of two that hardly a view exceeds.
 ///
@@ -93,14 +105,30 @@ impl EdgeContours {
 ///
 /// Faces without area take over the orientation of their stand-in. O(faces), on all threads.
 pub fn facing(shape: &HalfEdgeMesh, eye: &Eye) -> Vec<u8> {
-    let mut front: Vec<u8> = shape
-        .faces
-        .par_iter()
-        .with_min_len(4096)
-        .map(|corners| {
-            u8::from(eye.height_over(corners.map(|v| shape.positions[v as usize])) > 0.0)
-        })
-        .collect();
+    let mut front = vec![0; shape.faces.len()];
+    (front
+        .par_chunks_mut(CHUNK)
+        .zip(shape.faces.par_chunks(CHUNK)))
+    .for_each(|(front, faces)| {
+        // Four faces at a time, and the rest one by one.
+        let (fours, rest) = faces.as_chunks::<4>();
+        let (front_fours, front_rest) = front.as_chunks_mut::<4>();
+        for (front, faces) in front_fours.iter_mut().zip(fours) {
+            let at = |face: usize, corner: usize| &shape.positions[faces[face][corner] as usize];
+            let corner = |corner: usize| {
+                let [a, b, c, d] = [at(0, corner), at(1, corner), at(2, corner), at(3, corner)];
+                let lanes = |axis: usize| Vec4::new(a[axis], b[axis], c[axis], d[axis]);
+                [lanes(0), lanes(1), lanes(2)]
+            };
+            let lanes = [corner(0), corner(1), corner(2)];
+            let heights = eye.heights_over(lanes, Vec4::splat);
+            *front = heights.to_array().map(|height| u8::from(height > 0.0));
+        }
+        for (front, corners) in front_rest.iter_mut().zip(rest) {
+            let corners = corners.map(|v| shape.positions[v as usize]);
+            *front = u8::from(eye.height_over(corners) > 0.0);
+        }
+    });
     for [face, stand_in] in &shape.degenerate_faces {
         front[*face as usize] = match *stand_in {
             NONE => 0,
@@ -116,12 +144,17 @@ pub fn facing(shape: &HalfEdgeMesh, eye: &Eye) -> Vec<u8> {
 /// O(faces + contour · valence).
 pub fn contours(shape: &HalfEdgeMesh, front: &[u8], eye: &Eye) -> CurveGraph {
     // Gather the half-edges at which the front faces end.
-    let half_edges: Vec<u32> = (0..shape.faces.len() as u32)
-        .into_par_iter()
-        .with_min_len(4096)
-        .filter(|face| front[*face as usize] != 0)
-        .flat_map_iter(|face| [3 * face, 3 * face + 1, 3 * face + 2])
-        .filter(|half_edge| leaves_front(shape, front, *half_edge))
+    let half_edges: Vec<u32> = front
+        .par_chunks(CHUNK)
+        .enumerate()
+        .flat_map_iter(|(chunk, facing)| {
+            let mut found = Vec::new();
+            for (face, _) in facing.iter().enumerate().filter(|(_, front)| **front != 0) {
+                let first = 3 * (chunk * CHUNK + face) as u32;
+                found.extend((first..first + 3).filter(|side| leaves_front(shape, front, *side)));
+            }
+            found
+        })
         .collect();
 
     // Link each to the one that follows it around the front.
@@ -201,7 +234,7 @@ fn is_concave(shape: &HalfEdgeMesh, eye: &Eye, half_edge: u32, twin: u32) -> boo
     dot(cross(from_tail(head), from_tail(own)), from_tail(across)) > 0.0
 }
 
-fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
+fn cross<T: Lanes>(a: [T; 3], b: [T; 3]) -> [T; 3] {
     [
         a[1] * b[2] - a[2] * b[1],
         a[2] * b[0] - a[0] * b[2],
@@ -209,6 +242,6 @@ fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
     ]
 }
 
-fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
+fn dot<T: Lanes>(a: [T; 3], b: [T; 3]) -> T {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }

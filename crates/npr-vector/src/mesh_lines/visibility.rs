@@ -7,6 +7,7 @@
 mod covering;
 mod ink;
 mod occluders;
+mod outline_grid;
 mod piece;
 #[cfg(test)]
 mod tests;
@@ -15,23 +16,21 @@ pub use covering::FaceImages;
 pub(crate) use covering::Tried;
 pub(crate) use ink::Ink;
 pub use occluders::Occluders;
+use outline_grid::NEAR_PX;
+pub use outline_grid::{Outline, OutlineGrid};
 pub(crate) use piece::MARGIN;
 pub use piece::Piece;
 
 use crate::mesh_lines::bvh::{FaceTree, Sight};
 use crate::project::Projector;
 use glam::DVec3;
-use npr_core::budget::{Budget, OverBudget};
 use npr_mesh::half_edge::HalfEdgeMesh;
 
 /// Length in pixels under which a span is not examined by itself.
 const LEAST_SPAN_PX: f64 = 1e-4;
 
-/// Number of outlines in the cells that a piece's image passes, above which the piece is crowded.
-///
-/// A crowded piece is tested face by face: testing every crossing with an outline would take the square of their
-/// number. Lines of usual models pass some dozens of outlines, the longest some hundreds.
-pub const CROWD: usize = 512;
+/// Distance from an end of an edge, as a share of it, within which a face that the edge goes through touches the end.
+pub(crate) const NEAR_SHARE: f64 = 1e-6;
 
 /// Spans of crowded pieces shorter than this, in pixels, are left out: nobody sees them, and there may be as many as
 /// faces.
@@ -63,168 +62,33 @@ pub struct Span {
     pub occluders: u32,
 }
 
-/// The outlines of a view that can hide something, in a grid over the picture.
-#[derive(Debug)]
-pub struct OutlineGrid {
-    outlines: Vec<Piece>,
-    cell_px: f64,
-    origin: [f64; 2],
-    columns: usize,
-    rows: usize,
-    starts: Vec<u32>,
-    entries: Vec<u32>,
+/// By how many surfaces there are more in front after a place than before it, where that is known.
+pub(crate) type Change = Option<i16>;
+
+/// A place of a piece where what hides it may change.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Cut {
+    /// Share of the piece's image.
+    pub(crate) at: f64,
+    pub(crate) change: Change,
+    /// The outline that is crossed, if any.
+    outline: Option<u32>,
 }
 
-impl OutlineGrid {
-    /// Sorts outlines into cells; O(outlines + cells they touch).
-    ///
-    /// # Errors
-    ///
-    /// [`OverBudget`] where there is no memory for them.
-    pub fn new(
-        size: [u32; 2],
-        outlines: Vec<Piece>,
-        budget: &mut Budget,
-    ) -> Result<Self, OverBudget> {
-        let margin = MARGIN * f64::from(size[0].max(size[1])) + 1.0;
-        let [width, height] = size.map(|side| f64::from(side) + 2.0 * margin);
-        let total: f64 = outlines.iter().map(Piece::length).sum();
-        // About one entry per outline and cell, whether outlines are many and short or few and long.
-        let wanted = (width * height / (outlines.len() as f64 + 1.0)).sqrt();
-        let cell_px = wanted
-            .max(total / (outlines.len() as f64 + 1.0) * 0.5)
-            .clamp(2.0, 256.0);
-        let mut grid = Self {
-            outlines,
-            cell_px,
-            origin: [-margin; 2],
-            columns: (width / cell_px).ceil() as usize,
-            rows: (height / cell_px).ceil() as usize,
-            starts: Vec::new(),
-            entries: Vec::new(),
-        };
-        grid.fill(budget)?;
-        Ok(grid)
-    }
-
-    fn fill(&mut self, budget: &mut Budget) -> Result<(), OverBudget> {
-        // Count the outlines of every cell.
-        let mut counts = vec![0_u32; self.columns * self.rows + 1];
-        for outline in &self.outlines {
-            self.cells_of(outline, |cell| counts[cell + 1] += 1);
-        }
-        for cell in 1..counts.len() {
-            counts[cell] += counts[cell - 1];
-        }
-        let count = counts[counts.len() - 1] as usize;
-        budget.take("outlines in the picture", count, size_of::<u32>())?;
-
-        // List them, cell after cell.
-        let mut entries = vec![0; count];
-        let mut cursor = counts.clone();
-        for (index, outline) in self.outlines.iter().enumerate() {
-            self.cells_of(outline, |cell| {
-                entries[cursor[cell] as usize] = index as u32;
-                cursor[cell] += 1;
-            });
-        }
-        self.starts = counts;
-        self.entries = entries;
-        Ok(())
-    }
-
-    /// Whether the cells that a piece's image passes hold more than [`CROWD`] outlines. O(cells).
-    pub fn is_crowded(&self, piece: &Piece) -> bool {
-        self.count_along(piece) > CROWD
-    }
-
-    /// Number of outlines in the cells that a piece's image passes; those in several cells count in each. O(cells).
-    pub(crate) fn count_along(&self, piece: &Piece) -> usize {
-        let mut count = 0;
-        self.cells_of(piece, |cell| {
-            count += (self.starts[cell + 1] - self.starts[cell]) as usize;
-        });
-        count
-    }
-
-    /// Visits the cells that a piece's image passes, row by row.
-    fn cells_of(&self, piece: &Piece, mut visit: impl FnMut(usize)) {
-        let [a, b] = piece
-            .place
-            .map(|p| [0, 1].map(|i| (p[i] - self.origin[i]) / self.cell_px));
-        let (top, bottom) = if a[1] <= b[1] { (a, b) } else { (b, a) };
-        let index = |v: f64, count: usize| (v.max(0.0) as usize).min(count - 1);
-        let (first, last) = (index(top[1], self.rows), index(bottom[1], self.rows));
-        let slope = (bottom[0] - top[0]) / (bottom[1] - top[1]).max(1e-300);
-        for row in first..=last {
-            let at = |y: f64| top[0] + slope * (y.clamp(top[1], bottom[1]) - top[1]);
-            let (p, q) = if first == last {
-                (top[0], bottom[0])
-            } else {
-                (at(row as f64), at(row as f64 + 1.0))
-            };
-            // A rounding error must not lose a cell.
-            let from = index(p.min(q) - 1e-9, self.columns);
-            let to = index(p.max(q) + 1e-9, self.columns);
-            for column in from..=to {
-                visit(row * self.columns + column);
-            }
-        }
-    }
-
-    /// Shares of a piece's image at which an outline in front of it is crossed, ascending.
-    pub fn cuts(&self, projector: &Projector, piece: &Piece) -> Vec<f64> {
-        // Find where the piece crosses outlines in the cells that it passes, and keep those in front.
-        let mut cuts = Vec::new();
-        self.cells_of(piece, |cell| {
-            let [from, to] = [cell, cell + 1].map(|c| self.starts[c] as usize);
-            for entry in &self.entries[from..to] {
-                let outline = &self.outlines[*entry as usize];
-                if let Some((own, other)) = crossing(piece, outline) {
-                    let (behind, front) = (
-                        piece.coordinate_at(projector, own),
-                        outline.coordinate_at(projector, other),
-                    );
-                    if front <= behind + behind.abs() * 1e-6 {
-                        cuts.push(own);
-                    }
-                }
-            }
-        });
-
-        // Sort the places, each once.
-        cuts.sort_by(f64::total_cmp);
-        cuts.dedup();
-        cuts
-    }
-}
-
-/// Where two images cross: the shares of both; none where they do not or are parallel.
-fn crossing(piece: &Piece, other: &Piece) -> Option<(f64, f64)> {
-    let ([a, b], [c, d]) = (piece.place, other.place);
-    let apart = |i: usize| a[i].max(b[i]) < c[i].min(d[i]) || c[i].max(d[i]) < a[i].min(b[i]);
-    if apart(0) || apart(1) {
-        return None;
-    }
-    let along = [b[0] - a[0], b[1] - a[1]];
-    let across = [d[0] - c[0], d[1] - c[1]];
-    let between = [c[0] - a[0], c[1] - a[1]];
-    let area = along[0] * across[1] - along[1] * across[0];
-    if area == 0.0 {
-        return None;
-    }
-    let own = (between[0] * across[1] - between[1] * across[0]) / area;
-    let theirs = (between[0] * along[1] - between[1] * along[0]) / area;
-    // Pieces that go on into one another meet at their ends, which is no crossing.
-    let inside = own > 1e-9 && own < 1.0 - 1e-9;
-    (inside && (-1e-9..=1.0 + 1e-9).contains(&theirs)).then_some((own, theirs))
+/// Where what hides a piece may change.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct Changes {
+    /// Places inside, ascending.
+    pub(crate) cuts: Vec<Cut>,
+    /// For each end, whether it is a vertex and nothing but the faces around that passes there.
+    pub(crate) is_plain: [bool; 2],
 }
 
 /// Memory that passes from piece to piece: it changes the time taken and nothing else.
 #[derive(Debug, Default)]
 pub struct Memory {
     /// The last face that hid something, which is tried first.
-    last: Option<u32>,
+    pub(crate) last: Option<u32>,
     tried: Tried,
 }
 
@@ -273,12 +137,13 @@ impl Seen<'_> {
         circumstances: &Circumstances,
         memory: &mut Memory,
     ) -> Vec<Span> {
-        let cuts = self.cuts(piece, &circumstances.piercings);
+        let cuts = self.changes(piece, &circumstances.piercings, None).cuts;
         let mut spans: Vec<Span> = Vec::with_capacity(1);
-        for pair in cuts.windows(2) {
-            let middle = (pair[0] + pair[1]) * 0.5;
-            let occluders = self.occluders(piece, middle, circumstances, &mut memory.last);
-            push(&mut spans, [pair[0], pair[1]], occluders);
+        let mut from = 0.0;
+        for to in cuts.iter().map(|cut| cut.at).chain([1.0]) {
+            let occluders = self.occluders(piece, [from, to], circumstances, &mut memory.last);
+            push(&mut spans, [from, to], occluders);
+            from = to;
         }
         spans
     }
@@ -343,36 +208,97 @@ impl Seen<'_> {
         }
     }
 
-    /// All shares where visibility may change, with both ends.
-    fn cuts(&self, piece: &Piece, piercings: &[f64]) -> Vec<f64> {
-        let mut cuts = self.outlines.cuts(self.projector, piece);
-        let [from, to] = piece.range;
-        let inside = piercings.iter().filter(|t| (from..to).contains(*t));
-        cuts.extend(inside.map(|t| {
-            self.projector
-                .image_share((t - from) / (to - from), piece.depth)
-        }));
-        cuts.extend(self.extra.iter().flat_map(|extra| extra.cuts(piece)));
-        cuts.sort_by(f64::total_cmp);
-        let least = LEAST_SPAN_PX / piece.length().max(LEAST_SPAN_PX);
-        let mut kept = vec![0.0];
-        for cut in cuts {
-            if cut - kept[kept.len() - 1] > least && cut < 1.0 - least {
-                kept.push(cut);
-            }
-        }
-        kept.push(1.0);
-        kept
-    }
-
-    fn occluders(
+    /// Where what hides a piece may change, which runs along an edge between two vertices or along none.
+    pub(crate) fn changes(
         &self,
         piece: &Piece,
-        share: f64,
+        piercings: &[f64],
+        ends: Option<[u32; 2]>,
+    ) -> Changes {
+        // Note which of its ends are vertices that touch no other face.
+        let [from, to] = piece.range;
+        let touched = |end: f64| piercings.iter().any(|t| (t - end).abs() < NEAR_SHARE);
+        let is_vertex = ends.is_some() && self.extra.is_none();
+        let mut changes = Changes {
+            cuts: Vec::new(),
+            is_plain: [
+                is_vertex && from == 0.0 && !touched(0.0),
+                is_vertex && to == 1.0 && !touched(1.0),
+            ],
+        };
+
+        // Cross outlines, faces and smoke.
+        self.outlines.add_crossings(self, piece, ends, &mut changes);
+        let cuts = &mut changes.cuts;
+        let unknown = |at: f64| Cut {
+            at,
+            change: None,
+            outline: None,
+        };
+        let inside = piercings.iter().filter(|t| (from..to).contains(*t));
+        cuts.extend(inside.map(|t| {
+            let share = (t - from) / (to - from);
+            unknown(self.projector.image_share(share, piece.depth))
+        }));
+        if let Some(extra) = self.extra {
+            cuts.extend(extra.cuts(piece).into_iter().map(unknown));
+        }
+
+        // Sort the places, without those too near to the one before or to an end: what changes there is not known.
+        cuts.sort_unstable_by(|a, b| a.at.total_cmp(&b.at).then(a.outline.cmp(&b.outline)));
+        let least = LEAST_SPAN_PX / piece.length().max(LEAST_SPAN_PX);
+        let mut count = 0_usize;
+        for index in 0..cuts.len() {
+            let cut = cuts[index];
+            let last = count.checked_sub(1).map(|last| cuts[last]);
+            let is_same = |last: Cut| last.at == cut.at && last.outline == cut.outline;
+            if cut.at >= 1.0 - least {
+                changes.is_plain[1] = false;
+            } else if cut.at - last.map_or(0.0, |last| last.at) > least {
+                cuts[count] = cut;
+                count += 1;
+            } else if let Some(last) = last {
+                cuts[count - 1].change = last.change.filter(|_| is_same(last));
+            } else {
+                changes.is_plain[0] = false;
+            }
+        }
+        cuts.truncate(count);
+        changes
+    }
+
+    /// By how many surfaces there are more in front of a piece once it has crossed an outline: the faces beside the
+    /// outline that lie where it goes on, less those where it came from. Unknown where one is seen edge-on.
+    fn change_across(&self, piece: &Piece, outline: &Outline) -> Change {
+        let [from, to] = outline.piece.place;
+        let across = [to[0] - from[0], to[1] - from[1]];
+        let side =
+            |place: [f64; 2]| across[0] * (place[1] - from[1]) - across[1] * (place[0] - from[0]);
+        let on = side(piece.place[1]) - side(piece.place[0]);
+        let mut change = 0_i16;
+        for half_edge in self.shape.sides(outline.edge) {
+            let corner = self.shape.point(self.shape.opposite(*half_edge));
+            if self.projector.depth(corner) <= self.projector.near() {
+                return None;
+            }
+            let corner = side(self.projector.project(corner));
+            if corner.abs() < NEAR_PX * NEAR_PX {
+                return None;
+            }
+            change += if (corner > 0.0) == (on > 0.0) { 1 } else { -1 };
+        }
+        Some(change)
+    }
+
+    /// Number of surfaces in front of the middle of a part of a piece.
+    pub(crate) fn occluders(
+        &self,
+        piece: &Piece,
+        [from, to]: [f64; 2],
         circumstances: &Circumstances,
         last: &mut Option<u32>,
     ) -> u32 {
-        let point = piece.world_at(self.projector, share);
+        let point = piece.world_at(self.projector, (from + to) * 0.5);
         let sight = self.sight(point, circumstances);
         let own = &circumstances.own_faces;
         let in_smoke = u32::from(self.extra.is_some_and(|extra| extra.hide(point)));
@@ -475,7 +401,7 @@ fn without(spans: &[Span], parts: &[[f64; 2]]) -> Vec<Span> {
 }
 
 /// Appends a span, or extends the last one if both are alike; does nothing if the span has no length.
-fn push(spans: &mut Vec<Span>, [from, to]: [f64; 2], occluders: u32) {
+pub(crate) fn push(spans: &mut Vec<Span>, [from, to]: [f64; 2], occluders: u32) {
     match spans.last_mut() {
         Some(span) if span.occluders == occluders => span.to = to,
         _ if from < to => spans.push(Span {

@@ -1,5 +1,6 @@
 //! What a shape's lines need in every view.
 
+use super::stretches::fans;
 use crate::mesh_lines::bvh::FaceTree;
 use crate::mesh_lines::feature::features;
 use crate::mesh_lines::graph::CurveGraph;
@@ -11,6 +12,7 @@ use npr_core::crease::Creases;
 use npr_core::edge_flags::EdgeFlags;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use std::sync::OnceLock;
+use std::sync::atomic::AtomicBool;
 
 /// What a shape's lines need in every view, prepared once.
 #[derive(Debug)]
@@ -33,6 +35,10 @@ pub struct Prepared {
     creases: Creases,
     /// Whether `crossings` are known; else every view looks for those of its own lines.
     pub(super) has_crossings: bool,
+    /// Edges of which a view found that they go through no face and touch none with their ends.
+    pub(super) whole: Vec<AtomicBool>,
+    /// Number of faces around each vertex, up to a limit.
+    pub(super) fans: Vec<u8>,
     /// Smooth normals, once they are asked for.
     normals: OnceLock<CornerNormals>,
 }
@@ -70,7 +76,10 @@ impl Prepared {
         find: Option<&FindCrossings<'_>>,
     ) -> Result<Self, OverBudget> {
         // Sort faces for sights, link features, and find intersections where they are wanted.
-        let (tree, features) = rayon::join(|| FaceTree::new(shape), || features(shape, creases));
+        let (tree, (features, fans)) = rayon::join(
+            || FaceTree::new(shape),
+            || (features(shape, creases), fans(shape)),
+        );
         let crossings = match find {
             Some(find) => find(&tree)?,
             None => Crossings::default(),
@@ -97,6 +106,10 @@ impl Prepared {
             is_open,
             creases,
             has_crossings: find.is_some(),
+            whole: (0..shape.edge_count())
+                .map(|_| AtomicBool::new(false))
+                .collect(),
+            fans,
             normals: OnceLock::new(),
         })
     }

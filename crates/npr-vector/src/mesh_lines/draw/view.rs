@@ -1,12 +1,14 @@
 //! The pieces of all lines in one view of a shape, and their visible parts.
 
 use super::prepared::Prepared;
+use super::stretches;
 use crate::mesh_lines::feature::kind_in_view;
 use crate::mesh_lines::graph::{CurveGraph, CurveNode};
 use crate::mesh_lines::line::Line;
 use crate::mesh_lines::line_settings::{LineSettings, LineSource, OUTLINE_TOLERANCE_PX};
 use crate::mesh_lines::visibility::{
-    Circumstances, FaceImages, Ink, Memory, OutlineGrid, Piece, Seen, Span,
+    Changes, Circumstances, Cut, FaceImages, Ink, Memory, NEAR_SHARE, Outline, OutlineGrid, Piece,
+    Seen, Span, push,
 };
 use crate::mesh_lines::zero_set::{PolygonOutline, SeenContour, zero_set};
 use crate::project::Projector;
@@ -18,6 +20,7 @@ use npr_core::geometry::NONE;
 use npr_core::line_kind::KindSet;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use rayon::prelude::*;
+use std::sync::atomic::Ordering;
 
 /// Crowded pieces that are looked at together, before their ink is counted.
 const ROUND: usize = 256;
@@ -46,6 +49,54 @@ impl Toll {
     }
 }
 
+/// The piece of line after a node before anybody looked at it.
+pub(super) struct Draft {
+    /// The kind that it is drawn as.
+    pub(super) kind: Kind,
+    pub(super) piece: Piece,
+    /// Where what is seen of it may change.
+    pub(super) cuts: Vec<Cut>,
+    /// For both ends, whether the changes there are those of the faces around them.
+    pub(super) is_plain: [bool; 2],
+    /// It crosses too many outlines to be cut.
+    pub(super) is_crowded: bool,
+}
+
+impl Draft {
+    /// Number of its parts; a crowded one has none.
+    pub(super) fn span_count(&self) -> usize {
+        match self.is_crowded {
+            true => 0,
+            false => self.cuts.len() + 1,
+        }
+    }
+
+    /// Where a part of it starts and ends, in shares of its image.
+    pub(super) fn ends_of(&self, span: usize) -> [f64; 2] {
+        let before = span.checked_sub(1).and_then(|before| self.cuts.get(before));
+        let after = self.cuts.get(span);
+        [
+            before.map_or(0.0, |cut| cut.at),
+            after.map_or(1.0, |cut| cut.at),
+        ]
+    }
+
+    /// Length of a part in pixels.
+    pub(super) fn length_of(&self, span: usize) -> f64 {
+        let [from, to] = self.ends_of(span);
+        self.piece.length() * (to - from)
+    }
+
+    /// Its parts with what is in front of them; those that are alike become one.
+    pub(super) fn spans(&self, occluders: &[u32]) -> Vec<Span> {
+        let mut spans = Vec::with_capacity(1);
+        for (index, occluders) in occluders.iter().enumerate() {
+            push(&mut spans, self.ends_of(index), *occluders);
+        }
+        spans
+    }
+}
+
 /// One view of a shape.
 pub(super) struct View<'a> {
     pub(super) shape: &'a HalfEdgeMesh,
@@ -67,7 +118,7 @@ impl View<'_> {
         // Pay for as many pieces as there can be.
         let lists = [&contours.nodes, &self.prepared.features.nodes].map(Vec::len);
         let most = lists[0] + lists[1] + self.prepared.rims.len();
-        budget.take("outlines", most, size_of::<Piece>())?;
+        budget.take("outlines", most, size_of::<Outline>())?;
 
         // Take contours, features that are contours in this view, and open edges.
         let loops = contours
@@ -75,7 +126,7 @@ impl View<'_> {
             .par_iter()
             .with_min_len(1024)
             .filter(|node| node.flags & KindSet::CONTOUR != 0)
-            .filter_map(|node| self.edge_piece(node.edge));
+            .filter_map(|node| self.outline(node.edge));
         let odd = self
             .prepared
             .features
@@ -83,13 +134,13 @@ impl View<'_> {
             .par_iter()
             .with_min_len(1024)
             .filter(|node| node.next != NONE && self.kinds_of(node) & KindSet::CONTOUR != 0)
-            .filter_map(|node| self.edge_piece(node.edge));
+            .filter_map(|node| self.outline(node.edge));
         let rims = self
             .prepared
             .rims
             .par_iter()
             .with_min_len(1024)
-            .filter_map(|edge| self.edge_piece(*edge));
+            .filter_map(|edge| self.outline(*edge));
 
         // Sort them into a grid over the picture.
         let pieces = loops.chain(odd).chain(rims).collect();
@@ -107,6 +158,12 @@ impl View<'_> {
             let is_contour = sides.len() == 2 && fronts.count() == 1;
             Some((edge, is_contour.then(|| self.edge_piece(edge)).flatten()?))
         })
+    }
+
+    fn outline(&self, edge: u32) -> Option<Outline> {
+        let piece = self.edge_piece(edge)?;
+        let ends = self.shape.ends(edge);
+        Some(Outline { piece, edge, ends })
     }
 
     fn edge_piece(&self, edge: u32) -> Option<Piece> {
@@ -146,18 +203,20 @@ impl View<'_> {
         toll: &mut Toll,
     ) -> Result<Vec<Option<Line>>, OverBudget> {
         let count = graph.nodes.len();
+        if count == 0 {
+            return Ok(Vec::new());
+        }
         toll.budget
             .take("lines of a view", count, size_of::<Option<Line>>())?;
 
-        // Find what is seen of every piece that is not crowded.
-        let mut lines: Vec<Option<Line>> = graph
+        // Cut every piece that is not crowded, and look at what is seen of it.
+        let drafts: Vec<Option<Draft>> = graph
             .nodes
             .par_iter()
             .with_min_len(64)
-            .map_init(Memory::default, |memory, node| {
-                self.line(graph, node, seen, wanted, memory)
-            })
+            .map(|node| self.draft(graph, node, seen, wanted))
             .collect();
+        let mut lines = stretches::looked_at(self, graph, seen, &drafts);
 
         // Look at crowded pieces by the ink on the paper.
         toll.take_spans(lines.iter().flatten().map(|line| line.spans.len()).sum())?;
@@ -194,7 +253,7 @@ impl View<'_> {
                     let piece = &lines[*index].as_ref()?.piece;
                     let node = &graph.nodes[*index];
                     let other = graph.nodes.get(node.next as usize)?;
-                    let of_piece = self.circumstances(node, other, false);
+                    let of_piece = self.circumstances(node, other);
                     Some(seen.spans_between_outlines(piece, &of_piece, memory))
                 })
                 .collect();
@@ -225,7 +284,7 @@ impl View<'_> {
                     let other = graph.nodes.get(node.next as usize)?;
                     let black = toll.ink.black_parts(piece);
                     let is_free = black != [[0.0, 1.0]];
-                    let of_piece = || self.circumstances(node, other, true);
+                    let of_piece = || self.surroundings(node, other);
                     is_free.then(|| seen.crowded_spans(piece, &of_piece(), &black, memory))
                 })
                 .collect();
@@ -243,24 +302,32 @@ impl View<'_> {
         Ok(())
     }
 
-    /// The line after a node; that of a crowded piece has no spans yet.
-    fn line(
+    /// The line after a node, cut where what is seen of it may change.
+    fn draft(
         &self,
         graph: &CurveGraph,
         node: &CurveNode,
         seen: &Seen<'_>,
         wanted: u32,
-        memory: &mut Memory,
-    ) -> Option<Line> {
+    ) -> Option<Draft> {
         let kind = self.drawn_kind(node, wanted)?;
-
-        // Find what is seen of it; crowded pieces wait.
         let (piece, other) = self.piece_after(graph, node)?;
-        let spans: Vec<Span> = match seen.outlines.is_crowded(&piece) {
-            true => Vec::new(),
-            false => seen.spans(&piece, &self.circumstances(node, other, false), memory),
+        let is_crowded = seen.outlines.is_crowded(&piece);
+        let changes = match is_crowded {
+            true => Changes::default(),
+            false => {
+                let is_edge = node.is_along_edge() && self.shape.polyline_of(node.edge).is_none();
+                let ends = is_edge.then(|| self.shape.ends(node.edge));
+                seen.changes(&piece, &self.piercings(node, other), ends)
+            }
         };
-        Some(self.line_of(node, kind, piece, spans))
+        Some(Draft {
+            kind,
+            piece,
+            cuts: changes.cuts,
+            is_plain: changes.is_plain,
+            is_crowded,
+        })
     }
 
     /// The kind that the piece after a node is drawn as; `None` where it is not wanted, and for concave edges whose
@@ -304,18 +371,40 @@ impl View<'_> {
         Some((piece, other))
     }
 
-    /// Where the piece along the edge of a node goes through faces, from its start.
-    fn piercings(&self, node: &CurveNode) -> Vec<f64> {
+    /// Where the piece between two nodes goes through faces, from its start.
+    fn piercings(&self, node: &CurveNode, other: &CurveNode) -> Vec<f64> {
+        if !node.is_along_edge() {
+            // Where two surfaces cut each other, the line may go through a third.
+            let own = self.surroundings(node, other).own_faces;
+            let ends = [node, other].map(|node| self.shape.point_on(node.edge, node.t));
+            let tree = &self.prepared.tree;
+            return tree.piercings_between(self.shape, ends, |face| own.contains(&face));
+        }
         let up = node.t < 0.5;
-        if self.prepared.has_crossings && self.shape.polyline_of(node.edge).is_none() {
+        let is_polyline = self.shape.polyline_of(node.edge).is_some();
+        let are_known = self.prepared.has_crossings && !is_polyline;
+        let mut found: Vec<f64> = Vec::new();
+        if are_known {
             let known = self.prepared.crossings.of_edge(node.edge).iter();
-            return known
-                .map(|p| f64::from(if up { p.t } else { 1.0 - p.t }))
-                .collect();
+            found.extend(known.map(|p| f64::from(if up { p.t } else { 1.0 - p.t })));
+        }
+
+        // Look for others; whether an edge goes through any face is known once somebody looked.
+        let whole = self.prepared.whole.get(node.edge as usize);
+        if whole.is_some_and(|is_whole| is_whole.load(Ordering::Relaxed)) {
+            return found;
         }
         let [low, high] = self.shape.ends(node.edge);
         let ends = if up { [low, high] } else { [high, low] };
-        self.prepared.tree.piercings(self.shape, ends)
+        let places = self.prepared.tree.piercings(self.shape, ends);
+        if let (Some(whole), true) = (whole, places.is_empty()) {
+            whole.store(true, Ordering::Relaxed);
+        }
+
+        // An end that touches a face pierces it for one side at most, and is wanted for both.
+        let is_end = |t: &f64| t.abs() < NEAR_SHARE || (1.0 - t).abs() < NEAR_SHARE;
+        found.extend(places.into_iter().filter(|t| !are_known || is_end(t)));
+        found
     }
 
     /// The smooth contours of the view with their visible parts, where the settings ask for them.
@@ -381,23 +470,22 @@ impl View<'_> {
         Some((graph, lines))
     }
 
-    /// Faces that a piece lies in, and where it goes through other faces, which a crowded piece need not know.
-    fn circumstances(
-        &self,
-        node: &CurveNode,
-        other: &CurveNode,
-        is_crowded: bool,
-    ) -> Circumstances {
-        // Along an edge, a line lies in the faces beside it, which do not hide it; note where it goes through others.
+    /// Faces that a piece lies in, and where it goes through other faces.
+    fn circumstances(&self, node: &CurveNode, other: &CurveNode) -> Circumstances {
+        Circumstances {
+            piercings: self.piercings(node, other),
+            ..self.surroundings(node, other)
+        }
+    }
+
+    /// Faces that a piece lies in.
+    pub(super) fn surroundings(&self, node: &CurveNode, other: &CurveNode) -> Circumstances {
+        // Along an edge, a line lies in the faces beside it, which do not hide it.
         let beside = |edge: u32| self.shape.sides(edge).iter().map(|side| side / 3);
         if node.is_along_edge() {
             let is_polyline = self.shape.polyline_of(node.edge).is_some();
             return Circumstances {
-                piercings: if is_crowded {
-                    Vec::new()
-                } else {
-                    self.piercings(node)
-                },
+                piercings: Vec::new(),
                 own_faces: beside(node.edge).collect(),
                 touch: if is_polyline {
                     self.prepared.touch
@@ -415,8 +503,17 @@ impl View<'_> {
             faces.collect::<Vec<u32>>()
         };
         let (here, there) = (at(node), at(other));
+        // A vertex may be a corner of a face whose edges the other end has nothing to do with.
+        let touches = |face: u32, end: &CurveNode, faces: &[u32]| {
+            let corners = self.shape.faces[face as usize];
+            let [low, high] = self.shape.ends(end.edge);
+            let is_corner =
+                end.t == 0.0 && corners.contains(&low) || end.t == 1.0 && corners.contains(&high);
+            is_corner || faces.contains(&face)
+        };
         let mut own_faces = vec![node.face];
-        own_faces.extend(here.into_iter().filter(|face| there.contains(face)));
+        own_faces.extend(here.iter().filter(|face| touches(**face, other, &there)));
+        own_faces.extend(there.iter().filter(|face| touches(**face, node, &here)));
         Circumstances {
             own_faces,
             ..Circumstances::default()

@@ -1,9 +1,10 @@
 //! Pairs of faces that may cut each other: boxes overlap, and neither lies wholly beside the other's plane.
 
-use crate::mesh_lines::bvh::FaceTree;
+use crate::mesh_lines::bvh::{FaceTree, box_of};
 use npr_core::budget::OverBudget;
 use npr_core::geometry::NONE;
 use npr_mesh::half_edge::HalfEdgeMesh;
+use obvhs::aabb::Aabb;
 use rayon::prelude::*;
 
 /// Most faces searched for together.
@@ -51,7 +52,7 @@ pub(super) fn find(
     take: &mut dyn FnMut(usize) -> Result<(), OverBudget>,
 ) -> Result<Pairs, OverBudget> {
     // Split the tree into groups of nodes.
-    let nodes = walk_order(tree);
+    let nodes = walk_order(shape, tree);
     let groups = groups(&nodes);
     let mut found = Pairs {
         pairs: Vec::new(),
@@ -85,9 +86,9 @@ pub(super) fn find(
 }
 
 /// Lays the nodes out so that a walk without a stack reads them front to back.
-fn walk_order(tree: &FaceTree) -> Vec<Node> {
+fn walk_order(shape: &HalfEdgeMesh, tree: &FaceTree) -> Vec<Node> {
     let from = &tree.bvh.nodes;
-    let mut nodes: Vec<Node> = Vec::with_capacity(from.len());
+    let mut nodes: Vec<Node> = Vec::with_capacity(2 * shape.faces.len());
     // A second visit, marked by its place in `nodes`, closes an inner node.
     let mut stack: Vec<(u32, u32)> = Vec::new();
     if !from.is_empty() {
@@ -100,23 +101,19 @@ fn walk_order(tree: &FaceTree) -> Vec<Node> {
         }
         let node = &from[index as usize];
         let place = nodes.len() as u32;
-        let laid_out = Node {
-            min: node.aabb().min.to_array(),
+        let laid_out = |bounds: &Aabb, place: u32, face: u32| Node {
+            min: bounds.min.to_array(),
             skip: place + 1,
-            max: node.aabb().max.to_array(),
-            face: NONE,
+            max: bounds.max.to_array(),
+            face,
         };
         if node.is_leaf() {
-            let range = node.first_index as usize..(node.first_index + node.prim_count) as usize;
-            for face in &tree.bvh.primitive_indices[range] {
-                nodes.push(Node {
-                    skip: nodes.len() as u32 + 1,
-                    face: *face,
-                    ..laid_out
-                });
+            for face in tree.faces_of(node) {
+                let corners = shape.faces[*face as usize].map(|v| shape.positions[v as usize]);
+                nodes.push(laid_out(&box_of(corners), nodes.len() as u32, *face));
             }
         } else {
-            nodes.push(laid_out);
+            nodes.push(laid_out(node.aabb(), place, NONE));
             stack.push((index, place));
             stack.push((node.first_index + 1, NONE));
             stack.push((node.first_index, NONE));

@@ -1,4 +1,5 @@
 use super::*;
+use npr_core::budget::Budget;
 use npr_core::camera::{Camera, Projection};
 use npr_mesh::testing::{crossing_soup, mapped, shape_of};
 use proptest::prelude::*;
