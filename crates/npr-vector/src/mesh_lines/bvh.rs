@@ -475,15 +475,18 @@ fn slope(shape: &HalfEdgeMesh, face: u32, direction: DVec3) -> f64 {
 /// through between two of them.
 fn crossing(shape: &HalfEdgeMesh, face: u32, eye: DVec3, direction: DVec3) -> Option<f64> {
     let [a, b, c] = shape.faces[face as usize].map(|v| shape.point(v) - eye);
-    let u = direction.dot(c.cross(b));
-    let v = direction.dot(a.cross(c));
-    let w = direction.dot(b.cross(a));
     let [i, j, k] = shape.faces[face as usize];
     // A way through an edge itself is on the side that the order of its vertices says, so of two faces it passes one.
     let left = |side: f64, from: u32, to: u32| side > 0.0 || (side == 0.0 && from < to);
-    let sides = [left(u, j, k), left(v, k, i), left(w, i, j)];
+    let u = direction.dot(c.cross(b));
+    let v = direction.dot(a.cross(c));
+    let is_left = left(u, j, k);
+    if left(v, k, i) != is_left {
+        return None;
+    }
+    let w = direction.dot(b.cross(a));
     let sum = u + v + w;
-    if sides != [sides[0]; 3] || sum == 0.0 {
+    if left(w, i, j) != is_left || sum == 0.0 {
         return None;
     }
     let place = (a * u + b * v + c * w) / sum;

@@ -59,8 +59,7 @@ pub fn runs(
         hidden,
     };
     let chains = graph.chains().into_par_iter().with_min_len(8);
-    let found: Vec<Vec<Run>> = chains.map(|chain| maker.runs(chain)).collect();
-    let mut found = found.concat();
+    let mut found: Vec<Run> = chains.flat_map_iter(|chain| maker.runs(chain)).collect();
 
     // Tell apart runs on one edge, and leave out what has too few points.
     number(&mut found);

@@ -225,15 +225,16 @@ impl OutlineGrid {
                     continue;
                 }
                 let outline = &self.outlines[entry.outline as usize];
-                let Some(([own, other], sine)) = crossing(piece, &outline.piece) else {
+                if is_own(outline) {
+                    continue;
+                }
+                let Some(([own, other], area)) = crossing(piece, &outline.piece, reach) else {
                     continue;
                 };
                 let cuts = own > 1e-9 && own < 1.0 - 1e-9 && (-1e-9..=1.0 + 1e-9).contains(&other);
                 let is_near = [own.abs() < reach, (1.0 - own).abs() < reach];
-                if !cuts && is_near == [false; 2] || is_own(outline) {
-                    continue;
-                }
-                let reach = NEAR_PX / outline.piece.length().max(NEAR_PX);
+                let length = outline.piece.length().max(NEAR_PX);
+                let reach = NEAR_PX / length;
                 if !(-reach..=1.0 + reach).contains(&other) {
                     continue;
                 }
@@ -250,7 +251,7 @@ impl OutlineGrid {
                 if cuts {
                     let is_clear = front < behind - touch
                         && (reach..=1.0 - reach).contains(&other)
-                        && sine.abs() > LEAST_SINE;
+                        && area.abs() > LEAST_SINE * piece.length() * length;
                     let change = is_clear
                         .then(|| seen.change_across(piece, outline))
                         .flatten();
@@ -265,19 +266,18 @@ impl OutlineGrid {
     }
 }
 
-/// Where the lines through two images cross, as shares of both, with the sine of their angle; none where they are
-/// parallel.
-fn crossing(piece: &Piece, other: &Piece) -> Option<([f64; 2], f64)> {
+/// Where the lines through two images cross, as shares of both, with the area of the parallelogram between them; none
+/// where they are parallel, or cross farther than `reach` beyond the ends of the first.
+fn crossing(piece: &Piece, other: &Piece, reach: f64) -> Option<([f64; 2], f64)> {
     let ([a, b], [c, d]) = (piece.place, other.place);
     let along = [b[0] - a[0], b[1] - a[1]];
     let across = [d[0] - c[0], d[1] - c[1]];
     let between = [c[0] - a[0], c[1] - a[1]];
     let area = along[0] * across[1] - along[1] * across[0];
-    if area == 0.0 {
+    let own = (between[0] * across[1] - between[1] * across[0]) / area;
+    if area == 0.0 || own <= -reach || own >= 1.0 + reach {
         return None;
     }
-    let own = (between[0] * across[1] - between[1] * across[0]) / area;
     let theirs = (between[0] * along[1] - between[1] * along[0]) / area;
-    let length = |[x, y]: [f64; 2]| (x * x + y * y).sqrt();
-    Some(([own, theirs], area / (length(along) * length(across))))
+    Some(([own, theirs], area))
 }
