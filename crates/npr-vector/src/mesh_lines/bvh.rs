@@ -1,6 +1,5 @@
 //! The faces of a shape in a bounding volume hierarchy, and how many of them hide a point.
 
-use crate::mesh_lines::visibility::NEAR_SHARE;
 use glam::{DVec3, Vec4};
 use npr_mesh::half_edge::HalfEdgeMesh;
 use obvhs::Boundable;
@@ -15,6 +14,9 @@ use rayon::prelude::*;
 /// Positions are `f32`, so faces that touch in the scene lie up to about this far apart; a smaller fraction
 /// would break lines on contacts into dashes.
 pub const NEARER: f64 = 2.5e-7;
+
+/// Distance from an end of an edge, as a share of it, within which a face that the edge goes through touches the end.
+pub(crate) const NEAR_SHARE: f64 = 1e-6;
 
 /// A hierarchy over all faces of a shape, for any number of views.
 #[derive(Clone)]

@@ -21,16 +21,13 @@ pub use outline_grid::{Outline, OutlineGrid};
 pub(crate) use piece::MARGIN;
 pub use piece::Piece;
 
-use crate::mesh_lines::bvh::{FaceTree, Sight};
+use crate::mesh_lines::bvh::{FaceTree, NEAR_SHARE, Sight};
 use crate::project::Projector;
 use glam::DVec3;
 use npr_mesh::half_edge::HalfEdgeMesh;
 
 /// Length in pixels under which a span is not examined by itself.
 const LEAST_SPAN_PX: f64 = 1e-4;
-
-/// Distance from an end of an edge, as a share of it, within which a face that the edge goes through touches the end.
-pub(crate) const NEAR_SHARE: f64 = 1e-6;
 
 /// Spans of crowded pieces shorter than this, in pixels, are left out: nobody sees them, and there may be as many as
 /// faces.

@@ -1,6 +1,5 @@
 //! What a shape's lines need in every view.
 
-use super::stretches::fans;
 use crate::mesh_lines::bvh::FaceTree;
 use crate::mesh_lines::feature::features;
 use crate::mesh_lines::graph::CurveGraph;
@@ -13,6 +12,9 @@ use npr_core::edge_flags::EdgeFlags;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use std::sync::OnceLock;
 use std::sync::atomic::AtomicBool;
+
+/// Faces around a vertex beyond which nobody walks around it.
+pub(super) const WIDEST_FAN: u8 = 64;
 
 /// What a shape's lines need in every view, prepared once.
 #[derive(Debug)]
@@ -128,4 +130,14 @@ impl Prepared {
 
 fn object_of(shape: &HalfEdgeMesh, face: u32) -> u32 {
     shape.surfaces[shape.face_surfaces[face as usize] as usize].object
+}
+
+/// The number of faces around each vertex, up to [`WIDEST_FAN`] and one. O(faces).
+fn fans(shape: &HalfEdgeMesh) -> Vec<u8> {
+    let mut fans = vec![0_u8; shape.positions.len()];
+    for vertex in shape.faces.as_flattened() {
+        let fan = &mut fans[*vertex as usize];
+        *fan = (*fan + 1).min(WIDEST_FAN + 1);
+    }
+    fans
 }

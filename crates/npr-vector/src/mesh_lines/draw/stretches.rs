@@ -9,6 +9,7 @@
 #[cfg(test)]
 mod tests;
 
+use super::prepared::WIDEST_FAN;
 use super::view::{Draft, View};
 use crate::mesh_lines::graph::{CurveGraph, CurveNode};
 use crate::mesh_lines::line::Line;
@@ -17,9 +18,6 @@ use glam::DVec3;
 use npr_core::geometry::NONE;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use rayon::prelude::*;
-
-/// Faces around a vertex beyond which nobody walks around it.
-const WIDEST_FAN: u8 = 64;
 
 /// Sine of the angle within which a face is taken to touch a line, or to be seen edge-on.
 const ANGLE: f64 = 1e-9;
@@ -43,16 +41,6 @@ impl Member {
     fn at(self) -> [u32; 2] {
         [self.node, self.span]
     }
-}
-
-/// The number of faces around each vertex, up to [`WIDEST_FAN`] and one. O(faces).
-pub(super) fn fans(shape: &HalfEdgeMesh) -> Vec<u8> {
-    let mut fans = vec![0_u8; shape.positions.len()];
-    for vertex in shape.faces.as_flattened() {
-        let fan = &mut fans[*vertex as usize];
-        *fan = (*fan + 1).min(WIDEST_FAN + 1);
-    }
-    fans
 }
 
 /// The lines of a graph with what is seen of them; crowded ones have no spans yet.

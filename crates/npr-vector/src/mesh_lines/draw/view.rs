@@ -2,13 +2,14 @@
 
 use super::prepared::Prepared;
 use super::stretches;
+use crate::mesh_lines::bvh::NEAR_SHARE;
 use crate::mesh_lines::feature::kind_in_view;
 use crate::mesh_lines::graph::{CurveGraph, CurveNode};
 use crate::mesh_lines::line::Line;
 use crate::mesh_lines::line_settings::{LineSettings, LineSource, OUTLINE_TOLERANCE_PX};
 use crate::mesh_lines::visibility::{
-    Changes, Circumstances, Cut, FaceImages, Ink, Memory, NEAR_SHARE, Outline, OutlineGrid, Piece,
-    Seen, Span, push,
+    Changes, Circumstances, Cut, FaceImages, Ink, Memory, Outline, OutlineGrid, Piece, Seen, Span,
+    push,
 };
 use crate::mesh_lines::zero_set::{PolygonOutline, SeenContour, zero_set};
 use crate::project::Projector;
