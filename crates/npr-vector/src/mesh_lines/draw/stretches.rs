@@ -43,7 +43,14 @@ impl Member {
     }
 }
 
-/// The lines of a graph with what is seen of them; crowded ones have no spans yet.
+/// Bytes for each node of a graph whose lines are looked at, beside their spans.
+pub(super) const BYTES_PER_NODE: usize = size_of::<Option<Line>>()
+    + size_of::<Option<Draft>>()
+    + size_of::<Member>()
+    + size_of::<Found>();
+
+/// The lines of a graph with what is seen of them; crowded ones have no spans yet. O(spans), and a sight for each
+/// stretch.
 pub(super) fn looked_at(
     view: &View<'_>,
     graph: &CurveGraph,
@@ -66,30 +73,31 @@ pub(super) fn looked_at(
 
     // Look at each stretch.
     let (members, starts) = stretches(graph, drafts, &changes);
+    let looks = Looks {
+        view,
+        graph,
+        seen,
+        drafts,
+    };
     let found: Vec<Found> = starts
         .par_windows(2)
         .with_min_len(8)
         .map_init(Memory::default, |memory, ends| {
-            let looks = Looks {
-                view,
-                graph,
-                seen,
-                drafts,
-            };
             looks.at(&members[ends[0]..ends[1]], memory)
         })
         .collect();
 
     // Put what was seen in the order of the lines.
-    let mut first = 0;
+    let mut count = 0;
     let firsts: Vec<usize> = drafts
         .iter()
         .map(|draft| {
-            first += draft.as_ref().map_or(0, Draft::span_count);
-            first - draft.as_ref().map_or(0, Draft::span_count)
+            let first = count;
+            count += draft.as_ref().map_or(0, Draft::span_count);
+            first
         })
         .collect();
-    let mut occluders = vec![0_u32; first];
+    let mut occluders = vec![0_u32; count];
     for (ends, found) in starts.windows(2).zip(found) {
         for (index, member) in members[ends[0]..ends[1]].iter().enumerate() {
             let at = firsts[member.node as usize] + member.span as usize;

@@ -208,7 +208,7 @@ impl View<'_> {
             return Ok(Vec::new());
         }
         toll.budget
-            .take("lines of a view", count, size_of::<Option<Line>>())?;
+            .take("lines of a view", count, stretches::BYTES_PER_NODE)?;
 
         // Cut every piece that is not crowded, and look at what is seen of it.
         let drafts: Vec<Option<Draft>> = graph
@@ -314,14 +314,20 @@ impl View<'_> {
         let kind = self.drawn_kind(node, wanted)?;
         let (piece, other) = self.piece_after(graph, node)?;
         let is_crowded = seen.outlines.is_crowded(&piece);
-        let changes = match is_crowded {
+        let is_polyline = self.shape.polyline_of(node.edge).is_some();
+        let mut changes = match is_crowded {
             true => Changes::default(),
             false => {
-                let is_edge = node.is_along_edge() && self.shape.polyline_of(node.edge).is_none();
+                let is_edge = node.is_along_edge() && !is_polyline;
                 let ends = is_edge.then(|| self.shape.ends(node.edge));
                 seen.changes(&piece, &self.piercings(node, other), ends)
             }
         };
+        // Faces that a polyline touches do not hide it, whatever outlines say.
+        if is_polyline {
+            let cuts = changes.cuts.iter_mut();
+            cuts.for_each(|cut| cut.change = None);
+        }
         Some(Draft {
             kind,
             piece,
