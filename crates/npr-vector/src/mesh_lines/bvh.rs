@@ -8,6 +8,7 @@ use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::node::Bvh2Node;
 use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// How much nearer than a point a face must be to hide it, as a fraction of the way from the eye.
 ///
@@ -21,7 +22,7 @@ pub(crate) const NEAR_SHARE: f64 = 1e-6;
 /// A hierarchy over all faces of a shape, for any number of views.
 #[derive(Clone)]
 pub struct FaceTree {
-    /// A leaf holds a few faces that follow each other; `primitive_indices` names them.
+    /// A leaf holds `prim_count` faces that follow each other, from the face `first_index` on.
     pub(crate) bvh: Bvh2,
     /// Largest coordinate, for the rounding of box tests.
     extent: f32,
@@ -129,7 +130,7 @@ impl FaceTree {
             let clump = &clumps[bvh.primitive_indices[leaf.first_index as usize] as usize];
             (leaf.first_index, leaf.prim_count) = (clump.first, clump.count);
         }
-        bvh.primitive_indices = (0..shape.faces.len() as u32).collect();
+        bvh.primitive_indices = Vec::new();
         Self { bvh, extent }
     }
 
@@ -238,9 +239,8 @@ impl FaceTree {
     }
 
     /// The faces of a leaf.
-    pub(crate) fn faces_of(&self, leaf: &Bvh2Node) -> &[u32] {
-        let from = leaf.first_index as usize;
-        &self.bvh.primitive_indices[from..from + leaf.prim_count as usize]
+    pub(crate) fn faces_of(leaf: &Bvh2Node) -> Range<u32> {
+        leaf.first_index..leaf.first_index + leaf.prim_count
     }
 
     /// Calls `visit` for every face whose box the way passes, until it returns false.
@@ -257,11 +257,8 @@ impl FaceTree {
         while let Some(index) = stack.pop() {
             let node = &nodes[index as usize];
             if node.is_leaf() {
-                let (from, count) = (node.first_index as usize, node.prim_count as usize);
-                for face in &self.bvh.primitive_indices[from..from + count] {
-                    if !visit(*face) {
-                        return;
-                    }
+                if !Self::faces_of(node).all(&mut visit) {
+                    return;
                 }
                 continue;
             }

@@ -108,9 +108,9 @@ fn walk_order(shape: &HalfEdgeMesh, tree: &FaceTree) -> Vec<Node> {
             face,
         };
         if node.is_leaf() {
-            for face in tree.faces_of(node) {
-                let corners = shape.faces[*face as usize].map(|v| shape.positions[v as usize]);
-                nodes.push(laid_out(&box_of(corners), nodes.len() as u32, *face));
+            for face in FaceTree::faces_of(node) {
+                let corners = shape.faces[face as usize].map(|v| shape.positions[v as usize]);
+                nodes.push(laid_out(&box_of(corners), nodes.len() as u32, face));
             }
         } else {
             nodes.push(laid_out(node.aabb(), place, NONE));

@@ -5,6 +5,7 @@ use crate::mesh_lines::bvh::{FaceTree, bounds};
 use crate::project::Projector;
 use glam::DVec3;
 use npr_mesh::half_edge::HalfEdgeMesh;
+use std::ops::Range;
 
 /// By how much boxes are grown for rounding, in pixels and as a share of a depth.
 const ROOM: f64 = 1e-6;
@@ -122,8 +123,8 @@ impl FaceBoxes {
             let node = &nodes[index as usize];
             let mut found = ImageBox::EMPTY;
             if node.is_leaf() {
-                for face in tree.faces_of(node) {
-                    found.join(&ImageBox::of(shape, *face, projector));
+                for face in FaceTree::faces_of(node) {
+                    found.join(&ImageBox::of(shape, face, projector));
                 }
             } else {
                 found.join(&boxes[node.first_index as usize]);
@@ -141,7 +142,7 @@ impl FaceBoxes {
         let mut stack: Vec<u32> = search.may_hide(0).then_some(0).into_iter().collect();
         while let Some(index) = stack.pop() {
             let faces = search.open(index, &mut stack);
-            parts.extend(faces.iter().filter_map(|face| sights.hidden_by(*face)));
+            parts.extend(faces.filter_map(|face| sights.hidden_by(face)));
             if parts.len() > most {
                 return None;
             }
@@ -179,15 +180,15 @@ impl<'a> Search<'a> {
         image.is_some_and(meets) && self.reach.meets(self.tree, index)
     }
 
-    /// The faces of a leaf; for another node an empty list, and its children are put on the stack.
-    fn open(&self, index: u32, stack: &mut Vec<u32>) -> &'a [u32] {
+    /// The faces of a leaf; for another node none, and its children are put on the stack.
+    fn open(&self, index: u32, stack: &mut Vec<u32>) -> Range<u32> {
         let node = &self.tree.bvh.nodes[index as usize];
         if node.is_leaf() {
-            return self.tree.faces_of(node);
+            return FaceTree::faces_of(node);
         }
         let children = [node.first_index, node.first_index + 1];
         stack.extend(children.into_iter().filter(|child| self.may_hide(*child)));
-        &[]
+        0..0
     }
 }
 
