@@ -13,6 +13,7 @@ const LINE_START_FREE: u32 = 1u;
 const LINE_END_FREE: u32 = 2u;
 const LINE_CLOSED: u32 = 4u;
 const LINE_ONCE: u32 = 8u;
+const LINE_WIDTH_SHIFT: u32 = 8u;
 
 struct SampledLine {
     first: u32,

@@ -11,7 +11,7 @@
 //# use lib/ink_point
 
 @group(0) @binding(0) var<uniform> view: View;
-@group(0) @binding(1) var<uniform> width: PartWidth;
+@group(0) @binding(1) var<storage, read> widths: array<PartWidth>;
 @group(0) @binding(2) var<storage, read> lines: array<SampledLine>;
 @group(0) @binding(3) var<storage, read> samples: array<SpineSample>;
 @group(0) @binding(4) var<storage, read> gaps: array<f32>;
@@ -71,38 +71,39 @@ fn free_ends(line: SampledLine, part: vec2<u32>) -> vec2<bool> {
 }
 
 // Factor on the width at a share of a part's length from its start, by even steps.
-fn pressed(share: f32) -> f32 {
+fn pressed(of_line: u32, share: f32) -> f32 {
     let place = clamp(share, 0.0, 1.0) * 31.0;
     let stop = min(u32(place), 30u);
-    let low = width.along[stop / 4u][stop % 4u];
-    let high = width.along[(stop + 1u) / 4u][(stop + 1u) % 4u];
+    let low = widths[of_line].along[stop / 4u][stop % 4u];
+    let high = widths[of_line].along[(stop + 1u) / 4u][(stop + 1u) % 4u];
     return low + (high - low) * (place - f32(stop));
 }
 
 // Share of the width at a distance from an end over which a part thins out.
-fn tapered(from_end: f32, reach: f32) -> f32 {
+fn tapered(tip: f32, from_end: f32, reach: f32) -> f32 {
     let share = clamp(from_end / reach, 0.0, 1.0);
-    return width.tip + (1.0 - width.tip) * share * (2.0 - share);
+    return tip + (1.0 - tip) * share * (2.0 - share);
 }
 
 fn factor_at(line: SampledLine, part: vec2<u32>, along: f32, length: f32, is_whole: bool) -> f32 {
     // Thin out what is short and meets no other line.
     let is_ring = is_whole && (line.bits & LINE_CLOSED) != 0u;
     let free = free_ends(line, part);
+    let of_line = line.bits >> LINE_WIDTH_SHIFT;
+    let short_px = widths[of_line].short_px;
     var factor = 1.0;
-    if (is_ring || all(free)) && length < width.short_px {
-        factor = max(2.0 * length / width.short_px - 1.0, 0.0);
-    }
+    if (is_ring || all(free)) && length < short_px { factor = max(2.0 * length / short_px - 1.0, 0.0); }
     if is_ring { return factor; }
 
     // Thin out free ends, and press along the part.
-    let most = min(width.taper_share, 0.5) * length;
-    let reach = min(width.taper_px, vec2<f32>(most));
-    let everywhere = width.at_all_ends != 0u;
+    let most = min(widths[of_line].taper_share, 0.5) * length;
+    let reach = min(widths[of_line].taper_px, vec2<f32>(most));
+    let everywhere = widths[of_line].at_all_ends != 0u;
+    let tip = widths[of_line].tip;
     var taper = 1.0;
-    if reach.x > 0.0 && (free.x || everywhere) { taper = min(taper, tapered(along, reach.x)); }
-    if reach.y > 0.0 && (free.y || everywhere) { taper = min(taper, tapered(length - along, reach.y)); }
-    return factor * taper * pressed(along / max(length, 1e-6));
+    if reach.x > 0.0 && (free.x || everywhere) { taper = min(taper, tapered(tip, along, reach.x)); }
+    if reach.y > 0.0 && (free.y || everywhere) { taper = min(taper, tapered(tip, length - along, reach.y)); }
+    return factor * taper * pressed(of_line, along / max(length, 1e-6));
 }
 
 // One invocation per point.
@@ -132,7 +133,8 @@ fn main(
     let is_whole = all(part == vec2<u32>(line.first, line.first + line.count));
     let along = f32(own - part.x) * line.step_px;
     let half_width = sample.half_width * factor_at(line, part, along, length, is_whole);
-    if (length < width.speck_px && !is_whole) || half_width <= 0.0 { return; }
+    let speck_px = widths[line.bits >> LINE_WIDTH_SHIFT].speck_px;
+    if (length < speck_px && !is_whole) || half_width <= 0.0 { return; }
 
     // Lay the image of the brush on it.
     let from_start = f32(own - line.first) * line.step_px;

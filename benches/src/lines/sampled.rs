@@ -82,6 +82,7 @@ pub fn sampled_drawing(
     let sampling = Sampling {
         view: &view,
         lay_of: &|_| BrushLay::PEN,
+        width_of: &|_| 0,
     };
     let sampled = sample_strokes(&open, &sampling, ROOM).expect("room for all lines");
     let on = Scenery {
@@ -93,9 +94,9 @@ pub fn sampled_drawing(
     };
     let mut gaps = vec![0.0; sampled.samples.len()];
     see_samples(&on, &sampled.samples, &mut gaps);
-    let visible = visible_samples(&EVEN, &sampled.lines, &sampled.samples, &gaps);
+    let visible = visible_samples(&[EVEN], &sampled.lines, &sampled.samples, &gaps);
     let seen = (&sampled.samples[..], &gaps[..]);
-    let points = inked((&view, &EVEN), &sampled.lines, seen, &visible);
+    let points = inked((&view, &[EVEN]), &sampled.lines, seen, &visible);
 
     // Make strokes of the points that hang together.
     let strokes = points

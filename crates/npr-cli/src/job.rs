@@ -54,9 +54,14 @@ impl<'a> Job<'a> {
         let output = Output::of(&path)?;
         let external = args.drawing.allow_external.as_deref();
         let look = Look::resolve(&args.look(), external)?.with_smoke(&args.drawing.volumes);
+        let small = renderer_options(&args.drawing, &look)?;
+        let [width, height] = small.size.map(|side| side.saturating_mul(args.enlarge));
+        check_size(Size { width, height })?;
         let options = RendererOptions {
             layers: format == PictureFormat::Exr || args.debug_layer.is_some(),
-            ..renderer_options(&args.drawing, &look)?
+            size: [width, height],
+            enlarged: args.enlarge,
+            ..small
         };
         Ok(Self {
             args,
@@ -86,7 +91,6 @@ pub fn renderer_options(args: &DrawingArguments, look: &Look) -> Result<Renderer
     let (limits, external) = (args.limits.limits(), args.allow_external.as_deref());
     Ok(RendererOptions {
         background_image: look.background_picture(&limits, external)?,
-        width_image: look.width_picture(&limits, external)?,
         pictures: look.pictures(&limits, external)?,
         fonts: look.fonts(&limits, external)?,
         memory_limit: limits.memory_bytes,

@@ -23,7 +23,7 @@ use npr_gpu::engine::{Engine, PassTime};
 use npr_render::{
     Drawing, Kind, LineModel, LineModelOptions, LineRenderer, LineSource, Model, facts_of,
 };
-use npr_stylesheet::{Background, WidthSource};
+use npr_stylesheet::Background;
 use std::io::Write;
 
 /// Draws the lines that the user asked for, or prints the style.
@@ -49,6 +49,12 @@ pub fn lines_of_picture(args: &RenderArguments) -> Result<(), Fault> {
                        write .png, or draw the lines alone with npr lines";
         return Err(Fault::new(Exit::Usage, message));
     };
+    if args.enlarge > 1 {
+        message::warn(
+            args.drawing.quiet,
+            "--enlarge is ignored: .svg files have no pixels",
+        );
+    }
     let lines_said = LinesArguments {
         scene: args.scene.clone(),
         output: args.output.clone(),
@@ -176,8 +182,9 @@ fn prepare(job: &LineJob<'_>, progress: &mut Progress) -> Result<Prepared, Fault
     })?;
     let facts = facts_of(&loaded.scene, smoke.is_some());
     model.set_smoke(smoke);
-    let is_painted = job.look.style.line_paint_flags() & Part::LINE_TEXTURE != 0;
-    if is_painted || job.lays_brushes() {
+    let style = &job.look.style;
+    let is_painted = style.line_paint_flags() & Part::LINE_TEXTURE != 0;
+    if is_painted || style.line.width.picture().is_some() || job.lays_brushes() {
         model.set_pictures(
             job.look
                 .pictures(&job.args.drawing.limits.limits(), external)?,
@@ -245,8 +252,5 @@ fn warn_of<'a>(
     let mut named = job.args.lines.kinds.iter().flatten();
     if job.options.method == LineSource::Potrace && named.any(is_intersection) {
         warn("lines of kind intersection are left out: --method potrace draws edges of meshes");
-    }
-    if job.look.style.line.width.source == WidthSource::Texture {
-        warn("line widths do not follow the texture: lines have the full width");
     }
 }

@@ -24,7 +24,6 @@ pub struct Look {
     /// The style without `--background`, and which of its keys the user stated.
     stated: Stated,
     background: Option<PictureFile>,
-    width: Option<PictureFile>,
     /// Fonts of its lettering, each name once, with the key that names it first.
     fonts: Vec<NamedFile>,
     /// Pictures that its tones are made from.
@@ -77,7 +76,6 @@ impl Look {
         };
         Ok(Self {
             background: file(background_name(&style), background_name(&written)),
-            width: file(width_name(&style), width_name(&written)),
             fonts: font_files(&style, &written, source.file()),
             pictures: picture_files(&style, &written, source.file(), Style::named_pictures),
             id_maps: picture_files(&style, &written, source.file(), Style::id_map_pictures),
@@ -100,18 +98,6 @@ impl Look {
         external: Option<&Path>,
     ) -> Result<Option<Picture>, Fault> {
         self.background
-            .as_ref()
-            .map(|file| file.load(limits, external))
-            .transpose()
-    }
-
-    /// The picture that line widths are read from, where there is one.
-    pub fn width_picture(
-        &self,
-        limits: &Limits,
-        external: Option<&Path>,
-    ) -> Result<Option<Picture>, Fault> {
-        self.width
             .as_ref()
             .map(|file| file.load(limits, external))
             .transpose()
@@ -153,14 +139,10 @@ impl Look {
 
     /// The files that this look is made from.
     pub fn inputs(&self) -> impl Iterator<Item = PathBuf> {
-        let pictures = self
-            .background
-            .iter()
-            .chain(&self.width)
-            .map(PictureFile::path);
+        let background = self.background.iter().map(PictureFile::path);
         let named = self.fonts.iter().chain(&self.pictures).chain(&self.id_maps);
         let named = named.map(|named| named.file.path());
-        pictures.chain(named).chain(self.style_file.clone())
+        background.chain(named).chain(self.style_file.clone())
     }
 
     /// Whether the background may leave the picture transparent.
@@ -209,7 +191,7 @@ impl Look {
         };
         width_rule(
             scale,
-            line.width.base.to_px(height as f32, DPI, 0.0) * factor,
+            line.scaled(line.width.base).to_px(height as f32, DPI, 0.0) * factor,
         )
     }
 }
@@ -222,14 +204,6 @@ fn background_name(style: &Style) -> Option<&str> {
         Background::Image(name) => Some(name),
         _ => None,
     }
-}
-
-fn width_name(style: &Style) -> Option<&str> {
-    let width = &style.line.width;
-    width
-        .texture
-        .as_deref()
-        .filter(|_| width.source == WidthSource::Texture)
 }
 
 /// The fonts that a style names. Names that the style file has itself are looked for beside it.

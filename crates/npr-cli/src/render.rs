@@ -186,7 +186,7 @@ pub fn warn_of_idle(look: &Look, scene: Facts, quiet: bool) {
 fn warn_of<'a>(job: &Job<'_>, model: &'a Model, of_smoke: impl Iterator<Item = &'a String>) {
     let quiet = job.args.drawing.quiet;
     message::warn_all(quiet, model.notices().iter().chain(of_smoke));
-    if let Some(warning) = job.look.width_warning(job.args.drawing.size.height) {
+    if let Some(warning) = job.look.width_warning(job.options.size[1]) {
         message::warn(quiet, &warning.to_string());
     }
 }

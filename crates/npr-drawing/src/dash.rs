@@ -50,57 +50,66 @@ impl Dash {
         is_cut.then_some((pairs, length))
     }
 
-    /// Most points that strokes have once [`cut_to_dashes`] has cut them. O(points).
-    pub fn points_after(&self, strokes: &[Stroke], is_cut: impl Fn(&Stroke) -> bool + Sync) -> u64 {
-        let period = self.period();
-        let of_stroke = |stroke: &Stroke| {
-            let (own, length) = (stroke.points.len() as u64, stroke.length());
-            let stays = !stroke.is_visible() || !has_course(length) || !is_cut(stroke);
-            match &period {
-                // Stretched patterns are shorter by a third at most.
-                Some((pairs, period)) if !stays => {
-                    let periods = (1.5 * length / period) as u64 + 2;
-                    own + periods * 2 * pairs.len() as u64
-                }
-                _ => own,
-            }
-        };
-        strokes.par_iter().map(of_stroke).sum()
-    }
-}
-
-/// Cuts the visible strokes for which `is_cut` is true into dashes, which keep their stroke's id.
-///
-/// Strokes shorter than the pattern stay whole. Where a dash of a ring goes through its start it is one. Lengths are
-/// those of the line's middle: round ends make dashes longer by the line's width, and gaps shorter. O(points + dashes
-/// log points), on all threads, with the same result for any number of them.
-pub fn cut_to_dashes(
-    strokes: &mut Vec<Stroke>,
-    dash: &Dash,
-    is_cut: impl Fn(&Stroke) -> bool + Sync,
-) {
-    let Some((pairs, period)) = dash.period() else {
-        return;
-    };
-    let all = std::mem::take(strokes).into_par_iter();
-    let cut = all.flat_map_iter(|stroke| {
-        let measured = match stroke.is_visible() && is_cut(&stroke) {
-            true => Measured::new(&stroke),
-            false => None,
-        };
-        let Some(line) = measured.filter(|line| line.length() >= period) else {
-            return vec![stroke];
-        };
-        let inked = match dash.fit {
+    /// The dashes of a stroke; `None` if it stays whole.
+    fn cut(&self, stroke: &Stroke) -> Option<Vec<Stroke>> {
+        let (pairs, period) = self.period()?;
+        let line = Measured::new(stroke).filter(|line| line.length() >= period)?;
+        let inked = match self.fit {
             true => fitted(&pairs, period, &line),
             false => from_start(&pairs, &line),
         };
         let dashes = inked.into_iter().map(|[from, to]| Stroke {
             points: line.part(from, to),
             closed: false,
-            ..stroke
+            ..*stroke
         });
-        dashes.collect()
+        Some(dashes.collect())
+    }
+
+    /// Most points that a stroke has once [`cut_to_dashes`] has cut it.
+    fn points_of(&self, stroke: &Stroke) -> u64 {
+        let (own, length) = (stroke.points.len() as u64, stroke.length());
+        match self.period() {
+            // Stretched patterns are shorter by a third at most.
+            Some((pairs, period)) if stroke.is_visible() && has_course(length) => {
+                let periods = (1.5 * length / period) as u64 + 2;
+                own + periods * 2 * pairs.len() as u64
+            }
+            _ => own,
+        }
+    }
+}
+
+/// Most points that strokes have once [`cut_to_dashes`] has cut them. O(points).
+pub fn points_of_dashes<'a>(
+    strokes: &[Stroke],
+    dash_of: impl Fn(&Stroke) -> Option<&'a Dash> + Sync,
+) -> u64 {
+    let of_stroke = |stroke: &Stroke| match dash_of(stroke) {
+        Some(dash) => dash.points_of(stroke),
+        None => stroke.points.len() as u64,
+    };
+    strokes.par_iter().map(of_stroke).sum()
+}
+
+/// Cuts each visible stroke into the dashes that `dash_of` gives for it, if any; they keep their stroke's id.
+///
+/// Strokes shorter than the pattern stay whole. Where a dash of a ring goes through its start it is one. Lengths are
+/// those of the line's middle: round ends make dashes longer by the line's width, and gaps shorter. O(points + dashes
+/// log points), on all threads, with the same result for any number of them.
+pub fn cut_to_dashes<'a>(
+    strokes: &mut Vec<Stroke>,
+    dash_of: impl Fn(&Stroke) -> Option<&'a Dash> + Sync,
+) {
+    let is_none = |stroke: &Stroke| dash_of(stroke).is_none_or(Dash::is_none);
+    if strokes.par_iter().all(is_none) {
+        return;
+    }
+    let all = std::mem::take(strokes).into_par_iter();
+    let cut = all.flat_map_iter(|stroke| {
+        let dash = dash_of(&stroke).filter(|_| stroke.is_visible());
+        let dashes = dash.and_then(|dash| dash.cut(&stroke));
+        dashes.unwrap_or_else(|| vec![stroke])
     });
     *strokes = cut.collect();
 }

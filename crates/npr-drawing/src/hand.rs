@@ -92,31 +92,35 @@ impl Hand {
         self.wave_px.max(SHORTEST_WAVE_PX)
     }
 
-    /// Most points that strokes have once [`draw_by_hand`] has drawn them. O(points).
-    pub fn points_after(
-        &self,
-        strokes: &[Stroke],
-        is_drawn: impl Fn(&Stroke) -> bool + Sync,
-    ) -> u64 {
-        let of_stroke = |stroke: &Stroke| {
-            let own = stroke.points.len() as u64;
-            let length = stroke.length();
-            let stays = !stroke.is_visible() || !has_course(length) || !is_drawn(stroke);
-            if self.is_none() || stays {
-                return own;
-            }
-            let added = match self.sways() {
-                // A copy is longer than its stroke by a quarter at most.
-                true => (1.25 * length / self.step()) as u64,
-                false => 0,
-            };
-            u64::from(self.copies()) * (2 * own + added + 4)
+    /// Most points that a stroke has once [`draw_by_hand`] has drawn it.
+    fn points_of(&self, stroke: &Stroke) -> u64 {
+        let own = stroke.points.len() as u64;
+        let length = stroke.length();
+        if self.is_none() || !stroke.is_visible() || !has_course(length) {
+            return own;
+        }
+        let added = match self.sways() {
+            // A copy is longer than its stroke by a quarter at most.
+            true => (1.25 * length / self.step()) as u64,
+            false => 0,
         };
-        strokes.par_iter().map(of_stroke).sum()
+        u64::from(self.copies()) * (2 * own + added + 4)
     }
 }
 
-/// Draws the visible strokes for which `is_drawn` is true as a hand does; each is followed by its copies.
+/// Most points that strokes have once [`draw_by_hand`] has drawn them. O(points).
+pub fn points_by_hand<'a>(
+    strokes: &[Stroke],
+    hand_of: impl Fn(&Stroke) -> Option<&'a Hand> + Sync,
+) -> u64 {
+    let of_stroke = |stroke: &Stroke| match hand_of(stroke) {
+        Some(hand) => hand.points_of(stroke),
+        None => stroke.points.len() as u64,
+    };
+    strokes.par_iter().map(of_stroke).sum()
+}
+
+/// Draws each visible stroke as the hand that `hand_of` gives for it does, if any; each is followed by its copies.
 ///
 /// The first of them is the line itself. Where it ends on another line it follows that line's sway, and other ends stay
 /// where they are, so lines that meet still do; a ring comes back to its start. Copies lie beside it, each a little
@@ -124,12 +128,17 @@ impl Hand {
 /// are open, and run on past where they began. All keep the stroke's id. What a short stroke sways and spreads is
 /// limited by its length. O(points + points added + meetings of lines), on all threads, with the same result for any
 /// number of them.
-pub fn draw_by_hand(
+pub fn draw_by_hand<'a>(
     strokes: &mut Vec<Stroke>,
-    hand: &Hand,
-    is_drawn: impl Fn(&Stroke) -> bool + Sync,
+    hand_of: impl Fn(&Stroke) -> Option<&'a Hand> + Sync,
 ) {
-    if hand.is_none() {
+    // Choose those that a hand draws.
+    let of = |stroke: &Stroke| {
+        let hand = hand_of(stroke).filter(|_| stroke.is_visible());
+        hand.filter(|hand| !hand.is_none())
+    };
+    let hands: Vec<Option<&Hand>> = strokes.par_iter().map(of).collect();
+    if hands.iter().all(Option::is_none) {
         return;
     }
 
@@ -138,26 +147,24 @@ pub fn draw_by_hand(
     let sways: Vec<Option<Sway>> = strokes
         .par_iter()
         .zip(&lengths)
-        .map(|(stroke, length)| {
-            let is_swayed = stroke.is_visible() && has_course(*length) && is_drawn(stroke);
-            (hand.sways() && is_swayed)
-                .then(|| Sway::new(hand, *length, Seed::new(stroke.id, 0), stroke.closed))
+        .zip(&hands)
+        .map(|((stroke, length), hand)| {
+            let hand = hand.filter(|hand| hand.sways() && has_course(*length))?;
+            let seed = Seed::new(stroke.id, 0);
+            Some(Sway::new(hand, *length, seed, stroke.closed))
         })
         .collect();
-    let ends = match hand.sways() {
+    let ends = match sways.iter().any(Option::is_some) {
         true => moved_ends(strokes, &lengths, &sways),
         false => vec![[[0.0; 2]; 2]; strokes.len()],
     };
 
     // Draw them.
-    let of_strokes = sways.into_par_iter().zip(ends);
+    let of_strokes = sways.into_par_iter().zip(ends).zip(hands);
     let all = std::mem::take(strokes).into_par_iter().zip(of_strokes);
-    let drawn = all.flat_map_iter(|(stroke, (sway, ends))| {
-        let measured = match stroke.is_visible() && is_drawn(&stroke) {
-            true => Measured::new(&stroke),
-            false => None,
-        };
-        let Some(line) = measured else {
+    let drawn = all.flat_map_iter(|(stroke, ((sway, ends), hand))| {
+        let measured = hand.and_then(|hand| Some((hand, Measured::new(&stroke)?)));
+        let Some((hand, line)) = measured else {
             return vec![stroke];
         };
         let copies = (1..hand.copies()).filter_map(|copy| hand.copy(&stroke, &line, copy));

@@ -42,6 +42,7 @@ pub mod fit;
 pub mod hand;
 pub mod ink;
 pub mod json;
+pub mod lengths;
 pub mod lettering;
 mod mark;
 mod near;

@@ -45,26 +45,24 @@ impl Overshoot {
     }
 }
 
-/// Moves the ends of the visible open strokes for which `is_moved` is true, in a picture of `size` pixels.
+/// Moves the ends of the visible open strokes for which `overshoot_of` gives an overshoot, in a picture of `size`
+/// pixels.
 ///
 /// Each end by its own share of the lengths asked for, at least half of them, which the stroke's id decides; by an
 /// eighth of its stroke's length at most, or a third where it stops short. An end runs on straight, the way that the
 /// line's last pixels go. Ends that the picture's border cuts off stay. O(points), on all threads, with the same result
 /// for any number of them.
-pub fn move_ends(
+pub fn move_ends<'a>(
     strokes: &mut [Stroke],
     size: [u32; 2],
-    overshoot: &Overshoot,
-    is_moved: impl Fn(&Stroke) -> bool + Sync,
+    overshoot_of: impl Fn(&Stroke) -> Option<&'a Overshoot> + Sync,
 ) {
-    if overshoot.is_none() {
-        return;
-    }
-    let moved = strokes.par_iter_mut().filter(|stroke| {
+    let moved = strokes.par_iter_mut().filter_map(|stroke| {
         let is_open = !stroke.closed && stroke.is_visible();
-        is_open && is_moved(stroke)
+        let overshoot = overshoot_of(stroke).filter(|overshoot| is_open && !overshoot.is_none());
+        Some((stroke, overshoot?))
     });
-    moved.for_each(|stroke| {
+    moved.for_each(|(stroke, overshoot)| {
         if let Some(line) = Measured::new(stroke) {
             let seed = Seed::new(stroke.id, 0);
             let ends = [stroke.points.first(), stroke.points.last()];

@@ -100,21 +100,19 @@ impl Pressure {
     }
 }
 
-/// Multiplies the widths of the strokes for which `is_pressed` is true.
+/// Multiplies the widths of the strokes for which `pressure_of` gives a pressure.
 ///
 /// Points are added where the width bends; those that were there stay. Rings have no start, so pressure along strokes
 /// leaves them alone. O(points), on all threads, with the same result for any number of them.
-pub fn press_strokes(
+pub fn press_strokes<'a>(
     strokes: &mut [Stroke],
-    pressure: &Pressure,
-    is_pressed: impl Fn(&Stroke) -> bool + Sync,
+    pressure_of: impl Fn(&Stroke) -> Option<&'a Pressure> + Sync,
 ) {
-    if pressure.is_even() {
-        return;
-    }
-    let all = strokes.par_iter_mut();
-    all.filter(|stroke| is_pressed(stroke))
-        .for_each(|stroke| press(stroke, pressure));
+    strokes.par_iter_mut().for_each(|stroke| {
+        if let Some(pressure) = pressure_of(stroke).filter(|pressure| !pressure.is_even()) {
+            press(stroke, pressure);
+        }
+    });
 }
 
 fn press(stroke: &mut Stroke, pressure: &Pressure) {
@@ -214,7 +212,7 @@ mod tests {
     fn a_line_of_two_points_takes_the_curve() {
         let pressure = along(&[[0.0, 0.0], [0.5, 1.0], [1.0, 0.0]]);
         let mut strokes = [stroke(&[[0.0, 0.0, 1.0], [100.0, 0.0, 1.0]], false)];
-        press_strokes(&mut strokes, &pressure, |_| true);
+        press_strokes(&mut strokes, |_| Some(&pressure));
         assert!(strokes[0].points.len() > 20);
         for point in &strokes[0].points {
             let want = 2.0 * pressure.along.at(point.position[0] / 100.0);
@@ -233,7 +231,7 @@ mod tests {
             &[[0.0, 0.0, 10.0], [90.0, 0.0, 20.0], [0.0, 50.0, 30.0]],
             true,
         )];
-        press_strokes(&mut strokes, &pressure, |_| true);
+        press_strokes(&mut strokes, |_| Some(&pressure));
         for point in &strokes[0].points {
             let want = 2.0 * pressure.depth.at((point.depth - 10.0) / 10.0);
             assert!((point.width - want).abs() < 1e-9, "rings are far as well");
@@ -250,7 +248,8 @@ mod tests {
     fn rings_have_no_start() {
         let ring = stroke(&[[0.0, 0.0, 1.0], [90.0, 0.0, 1.0], [0.0, 50.0, 1.0]], true);
         let mut strokes = [ring.clone(), ring.clone()];
-        press_strokes(&mut strokes, &along(&[[0.0, 0.3], [1.0, 2.0]]), |_| true);
+        let rising = along(&[[0.0, 0.3], [1.0, 2.0]]);
+        press_strokes(&mut strokes, |_| Some(&rising));
         assert_eq!(strokes[0], ring);
     }
 
@@ -278,7 +277,8 @@ mod tests {
         ) {
             let before = stroke(&places, closed);
             let mut strokes = [before.clone()];
-            press_strokes(&mut strokes, &along(&[[0.0, 0.1], [0.3, 2.0], [1.0, 0.5]]), |_| true);
+            let uneven = along(&[[0.0, 0.1], [0.3, 2.0], [1.0, 0.5]]);
+            press_strokes(&mut strokes, |_| Some(&uneven));
             let mut after = strokes[0].points.iter();
             let same = |a: &StrokePoint, b: &StrokePoint| {
                 (0..2).all(|i| a.position[i].to_bits() == b.position[i].to_bits())

@@ -35,6 +35,8 @@ pub struct Sampling<'a> {
     pub view: &'a View,
     /// How the image of its brush lies on a stroke.
     pub lay_of: &'a (dyn Fn(&Stroke) -> BrushLay + Sync),
+    /// The number of the [`PartWidth`](npr_vector::sampled::PartWidth) of a stroke, below 2^24.
+    pub width_of: &'a (dyn Fn(&Stroke) -> u32 + Sync),
 }
 
 /// Samples of the strokes of a drawing at equal steps of at most a pixel, or of so much more that they find room.
@@ -66,7 +68,7 @@ pub fn sample_strokes(
             stroke,
             (*length, step),
             is_met,
-            (sampling.lay_of)(stroke),
+            ((sampling.lay_of)(stroke), (sampling.width_of)(stroke)),
             first,
         );
         first += line.count;
@@ -105,7 +107,7 @@ fn line_of(
     stroke: &Stroke,
     (length, step): (f64, f64),
     is_met: [bool; 2],
-    lay: BrushLay,
+    (lay, width): (BrushLay, u32),
     first: u32,
 ) -> SampledLine {
     // A stroke without a finite length has two samples in one place.
@@ -129,7 +131,8 @@ fn line_of(
         bits: bit(SampledLine::START_FREE, !stroke.closed && !is_met[0])
             | bit(SampledLine::END_FREE, !stroke.closed && !is_met[1])
             | bit(SampledLine::CLOSED, stroke.closed)
-            | bit(SampledLine::ONCE, is_once),
+            | bit(SampledLine::ONCE, is_once)
+            | width << SampledLine::WIDTH_SHIFT,
     }
 }
 

@@ -52,34 +52,40 @@ impl Taper {
     }
 }
 
-/// Thins the visible strokes for which `is_tapered` is true, in a picture of `size` pixels, and removes the specks
-/// among them.
+/// Thins each visible stroke by the taper that `taper_of` gives for it, if any, in a picture of `size` pixels, and
+/// removes the specks among them.
 ///
 /// Lengths are along the stroke in the picture, so a taper looks the same from every side. Points are added where the
 /// width changes; those that were there stay. Rings have no ends, but may be specks. The stroke's own far side counts
 /// as another line. O(points), on all threads, with the same result for any number of them.
-pub fn taper_strokes(
+pub fn taper_strokes<'a>(
     strokes: &mut Vec<Stroke>,
     size: [u32; 2],
-    taper: &Taper,
-    is_tapered: impl Fn(&Stroke) -> bool + Sync,
+    taper_of: impl Fn(&Stroke) -> Option<&'a Taper> + Sync,
 ) {
-    if taper.is_none() {
+    // Choose those that thin out.
+    let of = |stroke: &Stroke| {
+        let taper = taper_of(stroke).filter(|_| stroke.is_visible());
+        taper.filter(|taper| !taper.is_none())
+    };
+    let tapers: Vec<Option<&Taper>> = strokes.par_iter().map(of).collect();
+    if tapers.iter().all(Option::is_none) {
         return;
     }
 
     // Thin the ends, and all of what is short.
     let lengths: Vec<f64> = strokes.par_iter().map(Stroke::length).collect();
-    let is_met = match taper.at_all_ends && taper.short_px <= 0.0 {
+    let mut chosen = tapers.iter().flatten();
+    let is_met = match chosen.all(|taper| taper.at_all_ends && taper.short_px <= 0.0) {
         true => vec![[false; 2]; strokes.len()],
         false => met_ends(strokes, &lengths, size),
     };
-    let ends = lengths.par_iter().zip(is_met);
+    let ends = lengths.par_iter().zip(is_met).zip(tapers);
     let all = strokes.par_iter_mut().zip(ends);
-    let is_left = all.map(|(stroke, (length, is_met))| {
-        if !stroke.is_visible() || !is_tapered(stroke) {
+    let is_left = all.map(|(stroke, ((length, is_met), taper))| {
+        let Some(taper) = taper else {
             return true;
-        }
+        };
         let is_alone = stroke.closed || is_met == [false; 2];
         let presence = if is_alone {
             taper.presence(*length)

@@ -175,7 +175,7 @@ impl Needs {
         // Settle how it is found what is seen of strokes.
         let is_tiled = tiles.kept != tiles.frame;
         let mut notices = Vec::new();
-        let drawn = (style, &styled.brushes);
+        let drawn = (style, &styled.brushes, &styled.manners);
         let sample_room = strokes::sample_room(drawn, options, is_tiled, &mut notices);
         styled.inked.notices.extend(notices);
 
@@ -298,7 +298,8 @@ impl Passes {
             StrokePasses::plan(
                 &mut frame,
                 targets,
-                (styled.brushes.all.len(), needs.sample_room),
+                (styled.brushes.all.len(), styled.manners.all.len()),
+                needs.sample_room,
                 !features.ribbons,
             )
         });
@@ -495,8 +496,17 @@ impl<S: Session> FrameRenderer<S> {
         tiles.kept == tiles.frame && turned > CUT_COS && moved < CUT_RADII * model.radius()
     }
 
+    /// Base width of strokes in a view, in pixels, which images of brushes are as wide as.
+    pub fn stroke_base_px(&self, view: &View, camera: &Camera, model: &Model) -> f32 {
+        let FramePlan { style, options, .. } = &self.plan;
+        let enlarged = options.enlarged as f32;
+        let world_px = look::nearest_world_px(view, camera, model) / enlarged;
+        let (size, dpi) = (options.stroke_size(), options.stroke_dpi());
+        look::base_px(style, size[1], dpi, world_px) * enlarged
+    }
+
     /// Base width of lines in a view, in pixels.
-    pub fn base_px(&self, view: &View, camera: &Camera, model: &Model) -> f32 {
+    fn base_px(&self, view: &View, camera: &Camera, model: &Model) -> f32 {
         let FramePlan { style, options, .. } = &self.plan;
         let world_px = look::nearest_world_px(view, camera, model);
         look::base_px(style, options.size[1], options.dpi, world_px)
@@ -523,6 +533,9 @@ impl<S: Session> FrameRenderer<S> {
         // Settle the widths of lines and the rules of their colours in this view.
         let world_px = look::nearest_world_px(&view, camera, model);
         let base_px = self.base_px(&view, camera, model);
+        let stroke_base_px = self.stroke_base_px(&view, camera, model);
+        let (stroke_size, stroke_dpi) = (options.stroke_size(), options.stroke_dpi());
+        let enlarged = options.enlarged as f32;
         let half = look::largest_half_width(style, &needs.styled.parts, base_px);
         let reach_px = half.ceil().min(LARGEST_PX) as u32 + 1;
         let outline = look::outline(style, model.radius(), size[1], dpi, reach_px);
@@ -584,10 +597,12 @@ impl<S: Session> FrameRenderer<S> {
             ..
         } = &mut self.plan;
         if let Some(inked) = &passes.strokes {
-            let px = [size[1] as f32, dpi, size[1] as f32 / model.radius()];
-            let width = Expression::part_width(style, px);
-            let (graph, seen) = (&mut passes.frame.graph, (&view, strokes, &width));
-            let brushes = (&needs.styled.brushes, base_px);
+            let manners = &needs.styled.manners;
+            let height = stroke_size[1] as f32;
+            let px = [height, stroke_dpi, height / model.radius()];
+            let widths = Expression::part_widths(style, manners, (px, enlarged));
+            let (graph, seen) = (&mut passes.frame.graph, (&view, strokes, &widths[..]));
+            let brushes = (&needs.styled.brushes, manners, stroke_base_px);
             inked.upload_view(&mut self.session, graph, seen, brushes, *graph_limit)?;
         }
         self.before = Some(view);

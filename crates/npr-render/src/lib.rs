@@ -47,6 +47,7 @@ mod line_backdrop;
 mod line_colors;
 mod lines;
 mod look;
+mod manners;
 mod model;
 mod options;
 mod part_info;

@@ -4,6 +4,7 @@ use crate::brushes::Brushes;
 use crate::error::RenderError;
 use crate::hatching::{FrameScale, Inked, add_ink};
 use crate::line_colors::add_line_colors;
+use crate::manners::StrokeManners;
 use crate::model::Model;
 use crate::options::RendererOptions;
 use crate::part_info::PartInfo;
@@ -44,6 +45,8 @@ pub(crate) struct StyledModel {
     pub sky: Option<SkyMaps>,
     /// What strokes are drawn with.
     pub brushes: Brushes,
+    /// How strokes are drawn.
+    pub manners: StrokeManners,
 }
 
 impl StyledModel {
@@ -125,6 +128,7 @@ impl StyledModel {
             background_texture,
             sky,
             brushes,
+            manners: StrokeManners::new(stroked, style),
         })
     }
 }
@@ -294,7 +298,9 @@ struct VertexWidth<'a> {
 
 impl<'a> VertexWidth<'a> {
     fn new(model: &'a Model, style: &'a Style, options: &RendererOptions) -> Self {
-        let image = options.width_image.as_ref().and_then(|image| {
+        let named = style.line.width.picture();
+        let given = named.and_then(|name| options.pictures.get(name));
+        let image = given.and_then(|image| {
             let mut store = TextureStore::new();
             let start = store.add(image.size, &image.rgba, [Wrap::Repeat; 2])?;
             Some((store, start))
@@ -361,7 +367,7 @@ const THINNEST_PX: f32 = 1.0;
 
 /// Line width at factor 1, in frame pixels, where a world unit is `world_px` pixels.
 pub(crate) fn base_px(style: &Style, height_px: u32, dpi: f32, world_px: f32) -> f32 {
-    let base = style.line.width.base;
+    let base = style.line.scaled(style.line.width.base);
     let px = base.to_px(height_px as f32, dpi, world_px);
     let follows_frame = matches!(base.unit, Unit::RefPx | Unit::FrameHeight);
     if follows_frame && base.value > 0.0 {
@@ -385,7 +391,7 @@ pub(crate) fn outline(
     let published = line.method == OutlineMethod::Okuya;
     Outline {
         base_width: if in_world {
-            line.width.base.value
+            line.scaled(line.width.base).value
         } else {
             base_px(style, height_px, dpi, 0.0)
         },

@@ -35,10 +35,12 @@ pub struct RendererOptions {
     pub size: [u32; 2],
     /// Pixels per inch, for lengths in millimetres.
     pub dpi: f32,
+    /// How much larger the frame is than the picture whose strokes it shows, 1 for its own: strokes are found for a
+    /// picture of `size` divided by that, rounded down, and enlarged, so that a small frame and a large one are the same
+    /// drawing. Lengths of strokes in `px` are pixels of the small one.
+    pub enlarged: u32,
     /// The picture behind the scene, where the style names one.
     pub background_image: Option<Picture>,
-    /// The picture that line widths are read from, where the style names one.
-    pub width_image: Option<Picture>,
     /// The pictures that [`Style::named_pictures`](npr_stylesheet::Style::named_pictures) lists, by the names that the
     /// style gives them.
     pub pictures: BTreeMap<String, Picture>,
@@ -60,14 +62,24 @@ pub struct RendererOptions {
 }
 
 impl RendererOptions {
-    /// Options for a frame of `size` pixels: 96 pixels per inch, no pictures, fonts, smoke or layers, 4
+    /// Size of the picture that strokes are found for.
+    pub(crate) fn stroke_size(&self) -> [u32; 2] {
+        self.size.map(|side| (side / self.enlarged.max(1)).max(1))
+    }
+
+    /// Pixels per inch of that picture.
+    pub(crate) fn stroke_dpi(&self) -> f32 {
+        self.dpi / self.enlarged.max(1) as f32
+    }
+
+    /// Options for a frame of `size` pixels with strokes of its own: 96 pixels per inch, no pictures, fonts, smoke or layers, 4
     /// GiB.
     pub fn new(size: [u32; 2]) -> Self {
         Self {
             size,
             dpi: 96.0,
+            enlarged: 1,
             background_image: None,
-            width_image: None,
             pictures: BTreeMap::new(),
             fonts: BTreeMap::new(),
             smoke: None,

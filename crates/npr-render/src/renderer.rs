@@ -329,7 +329,7 @@ impl<'a> Renderer<'a> {
         let options = &self.frames.plan.options;
         let stroke_places = match options.layers && !found.seen.is_empty() {
             true => {
-                let base_px = self.frames.base_px(&aimed.view, camera, self.model);
+                let base_px = self.frames.stroke_base_px(&aimed.view, camera, self.model);
                 let inked = (self.frames.plan.styled(), base_px);
                 stroke_places(found.seen, &aimed.view, inked, options.size)
             }

@@ -34,6 +34,9 @@ impl Style {
         self.rule.iter().enumerate().try_for_each(|(i, rule)| {
             check_method(rule.line.method, i)?;
             check_direction(rule.ink.direction, &format!("rule.{i}.ink.direction"))?;
+            let pressure = rule.line.width.pressure.iter().flatten();
+            let key = format!("rule.{i}.line.width.pressure");
+            check_order(&key, pressure.map(|stop| stop.at))?;
             let ramp = rule.shade.ramp.as_deref();
             ramp.map_or(Ok(()), |stops| {
                 check_ramp(stops, &format!("rule.{i}.shade.ramp"))

@@ -19,6 +19,9 @@ const DOTS_MAX: usize = 1000;
 /// Lists that are appended to those of a parent instead of replacing them.
 const ADDED_UP: [&str; 2] = ["rule", "id_map"];
 
+/// The tables that say how lines are drawn.
+const STROKES: [&str; 2] = ["line", "paper"];
+
 /// A function that finds the text of a parent by its name.
 type Load<'a> = &'a dyn Fn(&str) -> Result<String, String>;
 
@@ -48,6 +51,22 @@ pub(crate) fn read(text: &str, load: Load<'_>) -> Result<Read, StyleError> {
         stated: flat.stated,
         former: stack.former,
     })
+}
+
+/// The table of a style with the strokes of a preset in place of its own.
+///
+/// # Errors
+///
+/// [`StyleError::UnknownPreset`] and the like; [`StyleError::Load`] for the name of a file.
+pub(crate) fn with_strokes(mut look: Table, preset: &str) -> Result<Table, StyleError> {
+    let mut stack = Stack {
+        load: &|_| Err("an override takes the strokes of presets alone".to_owned()),
+        open: Vec::new(),
+        loaded: 0,
+        former: Vec::new(),
+    };
+    take_strokes(&mut look, stack.parent(preset)?.all);
+    Ok(look)
 }
 
 /// The style that a checked table describes.
@@ -88,6 +107,12 @@ impl Flat {
         merge(&mut self.stated, upper.stated);
     }
 
+    /// Takes the strokes of another style in place of its own.
+    fn take_strokes(&mut self, of: Self) {
+        take_strokes(&mut self.all, of.all);
+        take_strokes(&mut self.stated, of.stated);
+    }
+
     /// The style as that of a preset, whose keys do not count as stated.
     fn of_preset(mut self) -> Self {
         let stated = std::mem::take(&mut self.stated).into_iter();
@@ -104,7 +129,7 @@ impl Flat {
 }
 
 impl Stack<'_> {
-    /// The table of `text` merged over its parents, `extends` removed.
+    /// The table of `text` merged over its parents and strokes, `extends` and `strokes` removed.
     fn flatten(&mut self, text: &str) -> Result<Flat, StyleError> {
         let mut all = parse(text)?;
         self.former.extend(former::rename(&mut all));
@@ -112,6 +137,11 @@ impl Stack<'_> {
         let mut merged = Flat::default();
         for parent in names(all.remove("extends")) {
             merged.merge(self.parent(&parent)?);
+        }
+        if let Some(Value::String(name)) = all.remove("strokes")
+            && !name.is_empty()
+        {
+            merged.take_strokes(self.parent(&name)?);
         }
         let stated = all.clone();
         merged.merge(Flat { all, stated });
@@ -217,6 +247,26 @@ fn names(extends: Option<Value>) -> Vec<String> {
             .filter_map(|name| name.as_str().map(str::to_owned))
             .collect(),
         _ => Vec::new(),
+    }
+}
+
+/// Puts the strokes of another style into that of a look: the tables about lines, and what rules say about lines.
+fn take_strokes(look: &mut Table, mut of: Table) {
+    for key in STROKES {
+        look.remove(key);
+        let own = of.remove(key);
+        look.extend(own.map(|table| (key.to_owned(), table)));
+    }
+    if let Some(Value::Array(rules)) = of.remove("rule") {
+        let about_lines = rules.into_iter().map(|rule| match rule {
+            Value::Table(mut rule) => {
+                rule.retain(|key, _| ["match", "line"].contains(&key));
+                Value::Table(rule)
+            }
+            other => other,
+        });
+        let rules = Value::Array(about_lines.collect());
+        merge(look, Table::from_iter([("rule".to_owned(), rules)]));
     }
 }
 

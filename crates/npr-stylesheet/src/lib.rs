@@ -85,10 +85,10 @@ pub use beam::{Beam, BeamOverlap, BeamStop, RuleBeam};
 pub use blend::Blend;
 pub use brush::{BrushMapping, LineBrush, Paper, RuleLineBrush, RuleStamp, Stamp};
 pub use color::{Color, ColorError};
-pub use dash::Dash;
+pub use dash::{Dash, RuleDash};
 pub use detect::{DepthTest, Detect, IdTest, MASK_LINE_PX, NormalTest, WidthWarning, width_rule};
 pub use error::{Problem, SourceLocation, StyleError};
-pub use hand::Hand;
+pub use hand::{Hand, RuleHand};
 pub use highlight::{
     Back, Edge, Highlight, HighlightModel, RuleBack, RuleHighlight, RuleStreak, Streak,
 };
@@ -124,8 +124,8 @@ pub use smoke::{
 };
 pub use stated::Stated;
 pub use style::Style;
-pub use taper::{Taper, TaperEnds};
-pub use width::{Channel, ControlPoint, Width, WidthDepth, WidthSource, WidthStop};
+pub use taper::{RuleTaper, Taper, TaperEnds};
+pub use width::{Channel, ControlPoint, RuleWidth, Width, WidthDepth, WidthSource, WidthStop};
 
 pub use npr_core::line_source::LineSource;
 pub use npr_style::brush::Tip;

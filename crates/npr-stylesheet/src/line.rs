@@ -126,6 +126,13 @@ pub struct Line {
     /// airbrush.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub angle_softness: f32 = 0.1,
+    /// What all lengths of strokes are multiplied by, 0.05..20: their widths, tapers and dashes, and how a hand sways;
+    /// default 1. 0.5 for a small print, 2 for a poster; `width.base` alone makes lines thicker and no longer.
+    #[schemars(range(min = 0.05, max = 20.0))]
+    pub scale: f32 = 1.0,
+    /// Length of the longest stroke: longer lines are drawn in several equal ones, at least 4 px long; default 0, any.
+    /// 60 a careful sketch, 200 an arm's reach. Of methods `strokes` and `potrace`, and of drawings as curves.
+    pub longest: Length = Length::ref_px(0.0),
     /// The kinds of line that are drawn.
     pub kinds: Kinds = Kinds::default(),
     /// The constants of method `potrace`.
@@ -141,4 +148,14 @@ pub struct Line {
     /// How their colour minds what lies behind them.
     pub background: LineBackground = LineBackground::default(),
 }
+}
+
+impl Line {
+    /// A length of strokes at their scale.
+    pub fn scaled(&self, length: Length) -> Length {
+        Length {
+            value: length.value * self.scale,
+            ..length
+        }
+    }
 }

@@ -2,8 +2,8 @@
 
 use crate::overlay::Over;
 use crate::{
-    Beam, Color, Highlight, Ink, LineBackground, LineBrush, LinePaint, OutlineMethod, PartNames,
-    Rule, Stop, Style,
+    Beam, Color, Dash, Hand, Highlight, Ink, LineBackground, LineBrush, LinePaint, OutlineMethod,
+    PartNames, Rule, Stop, Style, Width,
 };
 
 /// The look of one part of the scene, with all rules applied.
@@ -25,6 +25,12 @@ pub struct Look<'a> {
     pub line_background: LineBackground,
     /// What its strokes are drawn with.
     pub line_brush: LineBrush,
+    /// How wide they are; rules change how that changes along them.
+    pub line_width: Width,
+    /// How a hand draws them.
+    pub line_hand: Hand,
+    /// How they are cut into dashes.
+    pub line_dash: Dash,
     /// The subject that it belongs to, where a rule names one.
     pub subject: Option<&'a str>,
     /// Colour in place of its material's, where a rule gives one.
@@ -55,6 +61,9 @@ impl<'a> Look<'a> {
             angle_threshold_deg: style.line.angle_threshold_deg,
             line_background: style.line.background.clone(),
             line_brush: style.line.brush.clone(),
+            line_width: style.line.width.clone(),
+            line_hand: style.line.hand.clone(),
+            line_dash: style.line.dash.clone(),
             subject: None,
             shade_color: None,
             ramp: &style.shade.ramp,
@@ -79,6 +88,9 @@ impl<'a> Look<'a> {
             angle_threshold_deg: line.angle_threshold_deg.unwrap_or(self.angle_threshold_deg),
             line_background: line.background.over(self.line_background),
             line_brush: line.brush.over(self.line_brush),
+            line_width: line.width.over(self.line_width),
+            line_hand: line.hand.over(self.line_hand),
+            line_dash: line.dash.over(self.line_dash),
             subject: rule.subject.as_deref().or(self.subject),
             shade_color: shade.color.or(self.shade_color),
             ramp: shade.ramp.as_deref().unwrap_or(self.ramp),

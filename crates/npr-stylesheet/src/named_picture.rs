@@ -1,4 +1,4 @@
-//! The pictures that a style names for its tones, lines and blends.
+//! The pictures that a style names for its tones, lines, widths and blends.
 
 use crate::{LightShape, Style};
 
@@ -7,16 +7,16 @@ const RAMP: &str = "shade.ramp_image";
 const HATCH: &str = "ink.hatch.image";
 const LINE_PAINT: &str = "line.paint.image";
 const LINE_BRUSH: &str = "line.brush.image";
+const LINE_WIDTH: &str = "line.width.texture";
 const BLEND_MASK: &str = "blend.mask";
 const SMOKE_RAMP: &str = "smoke.ramp_image";
 const SMOKE_HATCH: &str = "smoke.ink.hatch.image";
 
 impl Style {
-    /// The pictures for tones, lines and blends, as pairs of key and picture name. Each name is listed once, with the
+    /// The pictures for tones, lines, widths and blends, as pairs of key and picture name. Each name is listed once, with the
     /// first key that has it.
     ///
-    /// The caller loads them: no files are opened here. Pictures of the background and of line widths are not among
-    /// them.
+    /// The caller loads them: no files are opened here. That of the background is not among them.
     pub fn named_pictures(&self) -> Vec<(String, &str)> {
         // List the pictures that the style itself names.
         let mut named = vec![
@@ -24,6 +24,10 @@ impl Style {
             (HATCH.to_owned(), self.ink.hatch.image.as_str()),
             (LINE_PAINT.to_owned(), self.line.paint.image.as_str()),
             (LINE_BRUSH.to_owned(), self.line.brush.image.as_str()),
+            (
+                LINE_WIDTH.to_owned(),
+                self.line.width.picture().unwrap_or_default(),
+            ),
             (BLEND_MASK.to_owned(), self.blend.mask.as_str()),
             (SMOKE_RAMP.to_owned(), self.smoke.ramp_image.as_str()),
             (SMOKE_HATCH.to_owned(), self.smoke.ink.hatch.image.as_str()),

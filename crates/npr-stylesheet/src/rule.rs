@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::ramp::Stop;
 use crate::{
-    Color, OutlineMethod, RuleBackground, RuleBeam, RuleHighlight, RuleInk, RuleLineBrush,
-    RuleMotion, RulePaint, glob, id_map,
+    Color, OutlineMethod, RuleBackground, RuleBeam, RuleDash, RuleHand, RuleHighlight, RuleInk,
+    RuleLineBrush, RuleMotion, RulePaint, RuleWidth, glob, id_map,
 };
 
 /// What a rule applies to: all patterns have to match.
@@ -59,8 +59,14 @@ pub struct RuleLine {
     pub angle_threshold_deg: Option<f32>,
     /// How its lines mind what lies behind them.
     pub background: RuleBackground,
+    /// How their width changes along them.
+    pub width: RuleWidth,
     /// What its strokes are drawn with.
     pub brush: RuleLineBrush,
+    /// How a hand draws them.
+    pub hand: RuleHand,
+    /// How they are cut into dashes.
+    pub dash: RuleDash,
 }
 
 /// What a rule changes about the fill; what is absent stays.

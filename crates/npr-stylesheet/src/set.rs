@@ -105,7 +105,10 @@ pub(crate) fn assign(style: &Style, assignments: &[Assignment<'_>]) -> Result<St
         message: error.to_string(),
     })?;
     for assignment in assignments {
-        assignment.apply(&mut table)?;
+        match (&assignment.path[..], &assignment.value) {
+            (["strokes"], Value::String(preset)) => table = layers::with_strokes(table, preset)?,
+            _ => assignment.apply(&mut table)?,
+        }
     }
     layers::from_table(table)
 }

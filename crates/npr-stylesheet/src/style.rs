@@ -25,6 +25,11 @@ pub struct Style {
     /// Empty once a style has been read.
     #[serde(skip_serializing_if = "Parents::is_empty")]
     pub extends: Parents,
+    /// The preset or style file whose strokes are drawn in place of those of the parents: its tables `line` and `paper`,
+    /// and what its rules say about lines; default none. So several looks share one way of drawing lines.
+    /// Empty once a style has been read.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub strokes: String,
     /// What shows where no surface is: a colour, `transparent` or an image; default white.
     pub background: Background,
     /// How surfaces are filled.
@@ -69,6 +74,7 @@ impl Default for Style {
             title: String::new(),
             version: 1,
             extends: Parents::default(),
+            strokes: String::new(),
             background: Background::default(),
             shade: Shade::default(),
             ink: Ink::default(),

@@ -19,18 +19,25 @@ pub enum TaperEnds {
 
 style_table! {
 /// How lines thin out towards their ends, as under a pen that is set down and lifted.
-pub struct Taper {
+pub struct Taper;
+/// What a rule changes about how lines thin out towards their ends; what is absent stays.
+pub struct RuleTaper {
     /// Length over which a line swells from its start; default 0, none. 30 a quick nib, 150 a long brush stroke.
+    #[rule = "Length over which a line swells from its start."]
     pub start: Length = Length::ref_px(0.0),
     /// Length over which a line thins out towards its end; default 0, none.
+    #[rule = "Length over which a line thins out towards its end."]
     pub end: Length = Length::ref_px(0.0),
     /// Greatest share of a line that each of them takes, 0..0.5; default 0.5. 0.2 leaves short lines a full middle.
     #[schemars(range(min = 0.0, max = 0.5))]
+    #[rule = "Greatest share of a line that each of them takes, 0..0.5."]
     pub share: f32 = 0.5,
     /// Share of the width that is left at the tip, 0..1; default 0, a point. 0.3 a blunt nib, 1 no taper.
     #[schemars(range(min = 0.0, max = 1.0))]
+    #[rule = "Share of the width that is left at the tip, 0..1."]
     pub tip: f32 = 0.0,
     /// At which ends; default `free`.
+    #[rule = "At which ends."]
     pub ends: TaperEnds = TaperEnds::Free,
 }
 }

@@ -7,8 +7,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::overlay::style_table;
-use crate::{DepthSpace, Length, Taper};
+use crate::overlay::{rule_table, style_table};
+use crate::{DepthSpace, Length, RuleTaper, Taper};
 
 /// What decides a line's width along the surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
@@ -141,6 +141,19 @@ pub struct Width {
     pub depth: WidthDepth,
 }
 
+rule_table! {
+/// What a rule changes about the width of strokes; what is absent stays.
+pub struct RuleWidth over Width {
+    /// Factors along strokes, from their start to their end, up to 16 sorted by `at`; [] for even strokes after all.
+    #[schemars(length(max = 16))]
+    pub pressure: Vec<WidthStop>,
+}
+with {
+    /// How lines thin out towards their ends.
+    pub taper: RuleTaper,
+}
+}
+
 impl Default for Width {
     fn default() -> Self {
         Self {
@@ -162,6 +175,12 @@ impl Default for Width {
 }
 
 impl Width {
+    /// The name of the picture that widths come from; `None` where their source is another one.
+    pub fn picture(&self) -> Option<&str> {
+        let is_source = self.source == WidthSource::Texture;
+        self.texture.as_deref().filter(|_| is_source)
+    }
+
     /// The width factor that the control points give at `position`, kept within `min..max`.
     pub fn factor_at(&self, position: [f32; 3]) -> f32 {
         control_factor(&self.control_points, position)

@@ -88,6 +88,13 @@ impl SampledLine {
     pub const CLOSED: u32 = 4;
     /// The image of its brush lies once over every visible part.
     pub const ONCE: u32 = 8;
+    /// The bits from this one on are the number of its [`PartWidth`].
+    pub const WIDTH_SHIFT: u32 = 8;
+
+    /// The width of its parts, among those of all lines.
+    pub fn width<'a>(&self, widths: &'a [PartWidth]) -> &'a PartWidth {
+        &widths[(self.bits >> Self::WIDTH_SHIFT) as usize]
+    }
 }
 
 /// How visible parts of lines are found and drawn.

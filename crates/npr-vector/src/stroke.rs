@@ -103,3 +103,25 @@ pub struct Drawing {
     /// What of the lines is left out, a sentence each, for the user; files do not hold it.
     pub notices: Vec<String>,
 }
+
+impl Drawing {
+    /// The same drawing as that of a picture `factor` times as large, in its pixels.
+    pub fn enlarged(mut self, factor: u32) -> Self {
+        let by = f64::from(factor);
+        self.size = self.size.map(|side| side.saturating_mul(factor));
+        for point in self
+            .strokes
+            .iter_mut()
+            .flat_map(|stroke| &mut stroke.points)
+        {
+            point.position = point.position.map(|at| at * by);
+            point.width *= by;
+            point.u *= by;
+        }
+        let rings = self.regions.iter_mut().flat_map(|region| &mut region.rings);
+        for place in rings.flatten() {
+            *place = place.map(|at| at * by);
+        }
+        self
+    }
+}

@@ -170,6 +170,11 @@ const ENABLING: &[(&str, &[&str], &str)] = &[
         "a curve needs stops",
     ),
     (
+        "rule.0.line.width.pressure",
+        &["rule.0.line.width.pressure=[{ at = 0.1, factor = 0.6 }, { at = 0.9, factor = 1.4 }]"],
+        "a curve needs stops",
+    ),
+    (
         "line.width.depth",
         &["line.width.depth.curve=[{ at = 0.1, factor = 0.6 }, { at = 0.9, factor = 1.4 }]"],
         "a curve needs stops",
@@ -561,6 +566,7 @@ const TEXTS: &[(&str, &[&str])] = &[
     ("lettering.0.text", &["'IOH'"]),
     ("lettering.0.font", &["'b.ttf'"]),
     ("blend.with", &["'ink'", "'comic-silver'"]),
+    ("strokes", &["'sketch'", "'brush'"]),
 ];
 
 /// The values of a key that takes a text; pictures where nothing else is said.

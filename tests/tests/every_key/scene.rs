@@ -151,7 +151,6 @@ impl Studio {
         };
         RendererOptions {
             background_image: background,
-            width_image: style.line.width.texture.as_deref().and_then(named),
             pictures: self.pictures.clone(),
             fonts: self.fonts.clone(),
             smoke: Some(smoke()),

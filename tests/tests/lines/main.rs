@@ -7,5 +7,6 @@ mod contour_growth;
 mod curves_in_frames;
 mod expression;
 mod files_and_frames;
+mod manners_of_parts;
 mod outlines;
 mod sampled_sights;

@@ -16,6 +16,10 @@ pub struct RenderArguments {
     /// the current folder].
     #[arg(short, long, value_name = "OUT")]
     pub output: Option<PathBuf>,
+    /// Draw the picture N times as large as --size, 1 to 16, with the strokes of that size: what was tried small comes
+    /// out as the same drawing in print. Of methods strokes and potrace.
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=16))]
+    pub enlarge: u32,
     /// Show a layer in place of the picture, to see what it is made of; list names them.
     #[arg(long, value_name = "NAME")]
     pub debug_layer: Option<DebugLayer>,

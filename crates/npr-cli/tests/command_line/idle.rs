@@ -22,6 +22,16 @@ const SMALL: [&str; 4] = ["--size", "96x64", "--backend", "cpu"];
 const DRAWINGS: &[Case] = &[
     (
         &["render", "scene.obj", "-o", "a.png"],
+        &["--enlarge", "2"],
+        Acts,
+    ),
+    (
+        &["render", "scene.obj", "-o", "a.svg", "--style", "blueprint"],
+        &["--enlarge", "2"],
+        Told("--enlarge is ignored: .svg files have no pixels"),
+    ),
+    (
+        &["render", "scene.obj", "-o", "a.png"],
         &["--debug-layer", "stroke"],
         Acts,
     ),

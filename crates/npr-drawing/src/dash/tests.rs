@@ -11,7 +11,7 @@ fn dashed(mut strokes: Vec<Stroke>, pattern_px: &[f64], fit: bool) -> Vec<Stroke
         pattern_px: pattern_px.to_vec(),
         fit,
     };
-    cut_to_dashes(&mut strokes, &dash, |_| true);
+    cut_to_dashes(&mut strokes, |_| Some(&dash));
     strokes
 }
 
@@ -181,9 +181,9 @@ proptest! {
     fn dashes_lie_on_the_line_one_after_the_other(strokes in strokes(), pattern in pattern(), fit: bool) {
         let dash = Dash { pattern_px: pattern.clone(), fit };
         let mut after = strokes.clone();
-        cut_to_dashes(&mut after, &dash, |_| true);
+        cut_to_dashes(&mut after, |_| Some(&dash));
         let count: usize = after.iter().map(|stroke| stroke.points.len()).sum();
-        prop_assert!(count as u64 <= dash.points_after(&strokes, |_| true));
+        prop_assert!(count as u64 <= points_of_dashes(&strokes, |_| Some(&dash)));
         for stroke in &strokes {
             let dashes: Vec<&Stroke> = after.iter().filter(|dash| dash.id == stroke.id).collect();
             for point in dashes.iter().flat_map(|dash| &dash.points) {
@@ -229,11 +229,11 @@ proptest! {
     ) {
         let strokes = vec![Stroke { closed, ..stroke_of(&places) }, line(100.0)];
         let dash = Dash { pattern_px: pattern, fit };
-        let bound = dash.points_after(&strokes, |_| true);
+        let bound = points_of_dashes(&strokes, |_| Some(&dash));
         // What a caller refuses is not drawn.
         prop_assume!(bound < 1_000_000);
         let mut after = strokes;
-        cut_to_dashes(&mut after, &dash, |_| true);
+        cut_to_dashes(&mut after, |_| Some(&dash));
         let count: usize = after.iter().map(|stroke| stroke.points.len()).sum();
         prop_assert!(count as u64 <= bound);
         prop_assert!(after.last().unwrap().points.iter().all(|p| p.position[0] >= 20.0 && p.position[0] <= 120.0));

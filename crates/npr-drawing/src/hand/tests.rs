@@ -14,7 +14,7 @@ const CALM: Hand = Hand {
 };
 
 fn drawn(mut strokes: Vec<Stroke>, hand: &Hand) -> Vec<Stroke> {
-    draw_by_hand(&mut strokes, hand, |_| true);
+    draw_by_hand(&mut strokes, |_| Some(hand));
     strokes
 }
 
@@ -253,7 +253,7 @@ fn a_ruler_that_draws_once_changes_nothing() {
     assert_eq!(drawn(vec![line(1)], &none), vec![line(1)]);
     assert_eq!(drawn(vec![hidden.clone()], &CALM), vec![hidden]);
     let mut kept = vec![line(1)];
-    draw_by_hand(&mut kept, &Hand { copies: 8, ..CALM }, |_| false);
+    draw_by_hand(&mut kept, |_| None);
     assert_eq!(kept, vec![line(1)]);
 }
 
@@ -268,7 +268,7 @@ proptest! {
         let after = drawn(strokes.clone(), &hand);
         prop_assert_eq!(after.len(), strokes.len() * copies as usize);
         let count: usize = after.iter().map(|stroke| stroke.points.len()).sum();
-        prop_assert!(count as u64 <= hand.points_after(&strokes, |_| true));
+        prop_assert!(count as u64 <= points_by_hand(&strokes, |_| Some(&hand)));
         for (old, new) in strokes.iter().zip(after.chunks(copies as usize)) {
             let own = &new[0];
             prop_assert!(new.iter().all(|copy| copy.id == old.id));
@@ -313,7 +313,7 @@ proptest! {
     ) {
         let hand = Hand { wobble_px: wobble, wave_px: wave, copies, spread_px: spread };
         let strokes = vec![Stroke { closed, ..stroke_of(&places) }, line(1)];
-        let bound = hand.points_after(&strokes, |_| true);
+        let bound = points_by_hand(&strokes, |_| Some(&hand));
         // What a caller refuses is not drawn.
         prop_assume!(bound < 1_000_000);
         let after = drawn(strokes, &hand);

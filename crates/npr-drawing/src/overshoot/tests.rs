@@ -11,7 +11,7 @@ fn moved(mut strokes: Vec<Stroke>, beyond_px: f64, short_px: f64) -> Vec<Stroke>
         beyond_px,
         short_px,
     };
-    move_ends(&mut strokes, SIZE, &overshoot, |_| true);
+    move_ends(&mut strokes, SIZE, |_| Some(&overshoot));
     strokes
 }
 

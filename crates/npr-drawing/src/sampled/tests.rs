@@ -20,6 +20,7 @@ fn seen(view: &View, world: [f32; 3]) -> ([f64; 2], f64) {
     let sampling = Sampling {
         view,
         lay_of: &|_| BrushLay::PEN,
+        width_of: &|_| 0,
     };
     let point = StrokePoint {
         world,
@@ -78,6 +79,7 @@ fn sampled(drawing: &Drawing, room: usize) -> Option<SampledStrokes> {
             brush: 3,
             images: Images::ByLength(20.0),
         },
+        width_of: &|stroke| stroke.id as u32 % 7,
     };
     sample_strokes(drawing, &sampling, room)
 }
@@ -116,6 +118,7 @@ proptest! {
             let own = &samples[line.first as usize..(line.first + line.count) as usize];
             prop_assert!(own.iter().all(|sample| sample.line == number && sample.color == 0xff03_0201));
             prop_assert!(!is_roomy || line.step_px <= 1.0);
+            prop_assert_eq!(u64::from(line.bits >> SampledLine::WIDTH_SHIFT), stroke.id % 7);
             let ends = [own[0].px, own[own.len() - 1].px];
             let last = if closed { 0 } else { stroke.points.len() - 1 };
             for (end, point) in ends.iter().zip([0, last]) {

@@ -23,8 +23,8 @@ pub struct SampledFrame {
     pub samples: ResourceId,
     /// [`SampledLine`](npr_vector::sampled::SampledLine)s; the last, without width, fills the buffer of samples.
     pub lines: ResourceId,
-    /// [`PartWidth`](npr_vector::sampled::PartWidth), a uniform.
-    pub width: ResourceId,
+    /// [`PartWidth`](npr_vector::sampled::PartWidth)s, of which every line names one.
+    pub widths: ResourceId,
 }
 
 /// Appends passes that find which parts of lines are visible; gives a buffer of
@@ -51,7 +51,7 @@ pub fn add_sampling(graph: &mut Graph, on: &SampledFrame) -> ResourceId {
     // Weigh what is seen, and find the samples whose verdict is clear.
     let verdicts = graph.buffer::<u32>("verdicts", count);
     let clear = graph.buffer::<u32>("clear samples", count);
-    let weighed = [on.width, on.samples, on.lines, gaps, verdicts, clear];
+    let weighed = [on.widths, on.samples, on.lines, gaps, verdicts, clear];
     graph.compute(&stroke::WEIGH_SAMPLES, &weighed);
 
     // Let every other sample show what the last clear one before it shows.
@@ -66,7 +66,7 @@ pub fn add_sampling(graph: &mut Graph, on: &SampledFrame) -> ResourceId {
     let Compacted { list, slots, .. } = add_compact(graph, starts, count, &ListWork::WHOLE);
     let points = graph.buffer::<InkPoint>("points of samples", count / 2);
     let inked = [
-        on.view, on.width, on.lines, on.samples, gaps, visible, slots, list, points,
+        on.view, on.widths, on.lines, on.samples, gaps, visible, slots, list, points,
     ];
     graph.compute(&stroke::INK_SAMPLES, &inked);
     points

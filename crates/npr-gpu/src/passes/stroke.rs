@@ -44,7 +44,7 @@ pub const WEIGH_SAMPLES: Pass = Pass {
     name: "stroke.weigh_samples",
     shader: npr_shaders::STROKE_WEIGH_SAMPLES,
     slots: &[
-        uniform::<PartWidth>("width"),
+        read::<PartWidth>("widths"),
         read::<SpineSample>("samples"),
         read::<SampledLine>("lines"),
         read::<f32>("gaps"),
@@ -56,7 +56,7 @@ pub const WEIGH_SAMPLES: Pass = Pass {
     twin: |b| {
         let (verdicts, clear) = (b.write(4), b.write(5));
         let seen = (b.read(1), b.read(3));
-        sampled::weigh_samples(&b.one(0), b.read(2), seen, verdicts, clear);
+        sampled::weigh_samples(b.read(0), b.read(2), seen, verdicts, clear);
     },
 };
 
@@ -98,7 +98,7 @@ pub const INK_SAMPLES: Pass = Pass {
     shader: npr_shaders::STROKE_INK_SAMPLES,
     slots: &[
         uniform::<View>("view"),
-        uniform::<PartWidth>("width"),
+        read::<PartWidth>("widths"),
         read::<SampledLine>("lines"),
         read::<SpineSample>("samples"),
         read::<f32>("gaps"),
@@ -116,7 +116,7 @@ pub const INK_SAMPLES: Pass = Pass {
             firsts: b.read(7),
         };
         let seen = (b.read(3), b.read(4));
-        sampled::ink_samples((&b.one(0), &b.one(1)), b.read(2), seen, &parts, b.write(8));
+        sampled::ink_samples((&b.one(0), b.read(1)), b.read(2), seen, &parts, b.write(8));
     },
 };
 

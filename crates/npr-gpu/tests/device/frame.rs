@@ -1,7 +1,7 @@
 //! What every slot of every pass holds in a frame: the scene, and what the twins make of it.
 
 use crate::scene::{
-    FRAME_PX, Look, PART_WIDTH, SHADOW_SIDE, SHADOWS, Scene, bare_compose, compose, lights,
+    FRAME_PX, Look, PART_WIDTHS, SHADOW_SIDE, SHADOWS, Scene, bare_compose, compose, lights,
     outline, part_subjects, rules, sampled_lines, shadow_of, smoke_look, spheres, strokes, view,
 };
 use npr_core::geometry::{ChartCorners, EdgeRole, GPixel, Stamp};
@@ -300,7 +300,7 @@ impl Builder {
     fn see_lines(&mut self) {
         // Hand over the lines.
         let (lines, samples) = sampled_lines();
-        self.give_uniform("width", &[PART_WIDTH]);
+        self.give_buffer("widths", &PART_WIDTHS);
         self.give_buffer("lines", &lines);
         self.give_buffer("samples", &samples);
         for name in ["gaps", "verdicts", "clear", "visible", "part_starts"] {

@@ -2,7 +2,7 @@
 
 use crate::contours::engines;
 use crate::frame::Frame;
-use crate::scene::{Look, PART_WIDTH, sampled_lines, view};
+use crate::scene::{Look, PART_WIDTHS, sampled_lines, view};
 use npr_core::geometry::{PosedVertex, Triangle};
 use npr_core::window::Window;
 use npr_gpu::curves::sampling::{SampledFrame, add_sampling};
@@ -53,9 +53,9 @@ impl Sampled {
         };
         let mut gaps = vec![0.0; self.samples.len()];
         see_samples(&on, &self.samples, &mut gaps);
-        let visible = visible_samples(&PART_WIDTH, &self.lines, &self.samples, &gaps);
+        let visible = visible_samples(&PART_WIDTHS, &self.lines, &self.samples, &gaps);
         inked(
-            (&view, &PART_WIDTH),
+            (&view, &PART_WIDTHS),
             &self.lines,
             (&self.samples, &gaps),
             &visible,
@@ -73,7 +73,7 @@ impl Sampled {
             triangles: graph.buffer::<Triangle>("triangles", self.triangles.len()),
             samples: graph.buffer::<SpineSample>("samples", self.samples.len()),
             lines: graph.buffer::<SampledLine>("lines", self.lines.len()),
-            width: graph.uniform::<PartWidth>("width"),
+            widths: graph.buffer::<PartWidth>("widths", PART_WIDTHS.len()),
         };
         let points = add_sampling(&mut graph, &on);
         let mut session = engine.prepare(graph).unwrap();
@@ -85,7 +85,7 @@ impl Sampled {
             (on.triangles, bytemuck::cast_slice(&self.triangles)),
             (on.samples, bytemuck::cast_slice(&self.samples)),
             (on.lines, bytemuck::cast_slice(&self.lines)),
-            (on.width, bytemuck::cast_slice(&[PART_WIDTH])),
+            (on.widths, bytemuck::cast_slice(&PART_WIDTHS)),
         ] {
             session.write(id, words).unwrap();
         }

@@ -590,7 +590,7 @@ pub fn sampled_lines() -> (Vec<SampledLine>, Vec<SpineSample>) {
             u_start: random.unit(),
             u_per_px: 0.05,
             full_half_width: 3.0,
-            bits: number * 5 % 16,
+            bits: (number * 5 % 16) | ((number % 2) << SampledLine::WIDTH_SHIFT),
         });
         samples.extend((0..count).map(|i| {
             let spine_px = [0, 1].map(|axis| from[axis] + i as f32 * along[axis]);
@@ -612,7 +612,7 @@ pub fn sampled_lines() -> (Vec<SampledLine>, Vec<SpineSample>) {
 }
 
 /// Tapers, short lines and pressure, of which all take part in [`sampled_lines`].
-pub const PART_WIDTH: PartWidth = PartWidth {
+const PRESSED: PartWidth = PartWidth {
     along: [[0.5, 1.0, 0.75, 1.0]; 8],
     taper_px: [12.0, 30.0],
     taper_share: 0.4,
@@ -622,6 +622,17 @@ pub const PART_WIDTH: PartWidth = PartWidth {
     at_all_ends: 0,
     radius: 1,
 };
+
+/// The widths that [`sampled_lines`] name in turns.
+pub const PART_WIDTHS: [PartWidth; 2] = [
+    PRESSED,
+    PartWidth {
+        along: [[0.25, 0.5, 1.0, 1.0]; 8],
+        taper_px: [20.0, 5.0],
+        at_all_ends: 1,
+        ..PRESSED
+    },
+];
 
 /// A pen, a dry brush, an airbrush and a brush that is a picture of odd sides.
 fn brushes(store: &mut TextureStore) -> Vec<Brush> {

@@ -6,6 +6,7 @@ use crate::error::RenderError;
 use crate::frame::Frame;
 use crate::frame_graph::{FrameGraph, write};
 use crate::lines::{LineOptions, LineRenderer};
+use crate::manners::StrokeManners;
 use crate::options::RendererOptions;
 use npr_core::budget::Budget;
 use npr_core::camera::Camera;
@@ -61,7 +62,7 @@ impl StrokeReport {
 /// Number of samples that a frame has room for where its style asks for sampled sights and nothing needs exact ones;
 /// 0 where all sights are exact. What needs them is told.
 pub(crate) fn sample_room(
-    (style, brushes): (&Style, &Brushes),
+    (style, brushes, manners): (&Style, &Brushes, &StrokeManners),
     options: &RendererOptions,
     is_tiled: bool,
     notices: &mut Vec<String>,
@@ -69,11 +70,9 @@ pub(crate) fn sample_room(
     if style.line.visibility != LineVisibility::Sampled || !style.has_curves() {
         return 0;
     }
-    let hand = &style.line.hand;
-    let moves_ends = hand.overshoot.value > 0.0 || hand.undershoot.value > 0.0;
     let reasons = [
-        (!style.line.dash.pattern.is_empty(), "dashes"),
-        (moves_ends, "overshoot"),
+        (manners.has_dashes(), "dashes"),
+        (manners.moves_ends(), "overshoot"),
         (brushes.has_stamps(), "stamps"),
         (
             !style.curve_sources().eq([LineSource::Edges]),
@@ -118,14 +117,15 @@ pub(crate) fn find(
         return Ok((found, report));
     };
     let of_style = LineOptions {
-        dpi: options.dpi,
-        ..LineOptions::of_style(style, options.size)
+        dpi: options.stroke_dpi(),
+        ..LineOptions::of_style(style, options.stroke_size())
     };
     for method in style.curve_sources() {
         let of_method = (&LineOptions { method, ..of_style }, leaves_open);
         let drawing = lines.draw_curves(camera, style, of_method, &options.pictures)?;
         report.times.extend_from_slice(lines.times());
         report.notices.extend_from_slice(&drawing.notices);
+        let drawing = drawing.enlarged(options.enlarged);
         match leaves_open {
             true => found.open = Some(drawing),
             false => found.seen.push(drawing),
@@ -165,23 +165,24 @@ enum Input {
     Samples {
         samples: ResourceId,
         lines: ResourceId,
-        width: ResourceId,
+        widths: ResourceId,
     },
 }
 
 impl StrokePasses {
-    /// Adds the passes that ink strokes with `brush_count` brushes into a picture and its keys, which are cleared
+    /// Adds the passes that ink strokes with so many brushes and manners into a picture and its keys, which are cleared
     /// before where `clears`; for more than no samples those that find out what is seen of so many.
     pub fn plan(
         frame: &mut FrameGraph,
         targets: [ResourceId; 2],
-        (brush_count, sample_room): (usize, usize),
+        (brush_count, manner_count): (usize, usize),
+        sample_room: usize,
         clears: bool,
     ) -> Self {
         let brushes = frame.graph.buffer::<Brush>("brushes", brush_count.max(1));
         let (input, points, size) = match sample_room {
             0 => Self::plan_points(frame),
-            _ => Self::plan_samples(frame, sample_room),
+            _ => Self::plan_samples(frame, sample_room, manner_count),
         };
         let bound = [frame.output_window, points, brushes, frame.texels];
         frame
@@ -201,11 +202,15 @@ impl StrokePasses {
         (Input::Points { points, size }, points, Some(drawn))
     }
 
-    fn plan_samples(frame: &mut FrameGraph, room: usize) -> (Input, ResourceId, Option<WorkSize>) {
+    fn plan_samples(
+        frame: &mut FrameGraph,
+        room: usize,
+        width_count: usize,
+    ) -> (Input, ResourceId, Option<WorkSize>) {
         let graph = &mut frame.graph;
         let samples = graph.buffer::<SpineSample>("samples of lines", room);
         let lines = graph.buffer::<SampledLine>("sampled lines", most_strokes(room) + 1);
-        let width = graph.uniform::<PartWidth>("width of parts");
+        let widths = graph.buffer::<PartWidth>("widths of parts", width_count);
         let on = SampledFrame {
             view: frame.view,
             window: frame.color_window,
@@ -214,13 +219,13 @@ impl StrokePasses {
             triangles: frame.triangles,
             samples,
             lines,
-            width,
+            widths,
         };
         let points = add_sampling(&mut frame.graph, &on);
         let input = Input::Samples {
             samples,
             lines,
-            width,
+            widths,
         };
         (input, points, None)
     }
@@ -241,13 +246,13 @@ impl StrokePasses {
         &self,
         session: &mut dyn Session,
         graph: &mut Graph,
-        (view, found, part_width): (&View, &FoundStrokes, &PartWidth),
-        brushes: (&Brushes, f32),
+        (view, found, part_widths): (&View, &FoundStrokes, &[PartWidth]),
+        (brushes, manners, base_px): (&Brushes, &StrokeManners, f32),
         graph_limit: u64,
     ) -> Result<(), RenderError> {
         match self.input {
             Input::Points { points, size } => {
-                let inked = points_of(&found.seen, view, brushes);
+                let inked = points_of(&found.seen, view, (brushes, base_px));
                 make_room(session, graph, (points, inked.len()), graph_limit)?;
 
                 // Write them, and how many there are.
@@ -261,14 +266,14 @@ impl StrokePasses {
             Input::Samples {
                 samples,
                 lines,
-                width,
+                widths,
             } => {
                 let nothing = Drawing::default();
                 let drawing = found.open.as_ref().unwrap_or(&nothing);
-                let (brushes, base_px) = brushes;
                 let sampling = Sampling {
                     view,
                     lay_of: &|stroke: &Stroke| brushes.lay_of(stroke, base_px),
+                    width_of: &|stroke: &Stroke| manners.number_of(stroke),
                 };
                 let room = graph.element_count(samples);
                 let Some(sampled) = sample_strokes(drawing, &sampling, room) else {
@@ -279,7 +284,7 @@ impl StrokePasses {
                 };
                 write(session, samples, &sampled.samples)?;
                 write(session, lines, &sampled.lines)?;
-                Ok(write(session, width, &[*part_width])?)
+                Ok(write(session, widths, part_widths)?)
             }
         }
     }

@@ -8,13 +8,14 @@ use crate::line_colors::add_line_colors;
 use crate::look;
 use crate::options::Picture;
 use crate::part_info::PartInfo;
+use crate::pictures::Pictures;
 use crate::placement::Bounds;
 use glam::{Vec2, Vec3};
 use npr_core::camera::Camera;
-use npr_core::color::{linear_rgba, unpack_rgba8};
+use npr_core::color::{linear_rgba, srgb_from_linear, unpack_rgba8};
 use npr_core::geometry::{NONE, Part};
 use npr_core::surface::unit_or_z;
-use npr_core::texture::{self, TextureStore};
+use npr_core::texture::{self, TextureStore, Wrap};
 use npr_core::window::View;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_style::lighting::Lights;
@@ -51,13 +52,21 @@ pub(super) struct StrokeColors<'a> {
     lights: Lights,
     parts: Vec<Part>,
     textures: TextureStore,
+    /// Where the picture of widths starts among the textures, or [`NONE`].
+    width_texture: u32,
     axes_world: [[f32; 3]; 3],
     center_world: [f32; 3],
 }
 
-/// Whether a style gives lines more than one colour and width a surface.
+/// Whether a style gives lines more than one colour and width a surface, beside what hangs on vertices.
 pub(super) fn is_painted(style: &Style) -> bool {
-    style.line_paint_flags() != 0
+    style.line_paint_flags() != 0 || style.line.width.picture().is_some()
+}
+
+/// Whether they look at texture coordinates.
+pub(super) fn needs_map(style: &Style) -> bool {
+    let by_texture = Part::LINE_SURFACE | Part::LINE_TEXTURE;
+    style.line_paint_flags() & by_texture != 0 || style.line.width.picture().is_some()
 }
 
 /// Whether they hang on the light.
@@ -116,6 +125,7 @@ impl<'a> StrokeColors<'a> {
             &mut parts,
             &mut textures,
         )?;
+        let width_texture = width_texture(style, input.pictures, &mut textures)?;
         Ok(Self {
             input,
             normals,
@@ -124,6 +134,7 @@ impl<'a> StrokeColors<'a> {
             lights,
             parts,
             textures,
+            width_texture,
             axes_world: camera.axes(),
             center_world: ((low + high) * 0.5).to_array(),
         })
@@ -149,12 +160,27 @@ impl<'a> StrokeColors<'a> {
         };
         let world = point.world.as_vec3().to_array();
         let normal = self.normal_at(kind, surface, point);
+        let width = scene.width_at(part, world, normal) * self.width_factor(surface, point);
         let own = self.own_at(part, surface, point);
         let color = scene.color_at(part, kind, own, world, normal);
         PointPaint {
             color: Some(color.map(|v| (v.clamp(0.0, 1.0) * 255.0 + 0.5) as u8)),
-            width: f64::from(scene.width_at(part, world, normal)),
+            width: f64::from(width),
         }
+    }
+
+    /// What the picture of widths multiplies the greatest width by at a point; 1 without one, and on lines that have no
+    /// surface.
+    fn width_factor(&self, surface: u32, point: &RunPoint) -> f32 {
+        let width = &self.input.style.line.width;
+        let texel = match self.width_texture {
+            NONE => None,
+            start => self.texel_at(start, surface, point),
+        };
+        texel.map_or(1.0, |[r, g, b]| {
+            let share = srgb_from_linear((r + g + b) / 3.0);
+            (width.min + (width.max - width.min) * share) / width.max.max(1e-6)
+        })
     }
 
     /// Where a point lies in the faces that it is coloured by: the face that its line crosses, or those beside its
@@ -236,13 +262,14 @@ impl<'a> StrokeColors<'a> {
             self.vertex_color_at(surface, point)
         } else if flags & Part::LINE_TEXTURE != 0 {
             self.texel_at(part.line_texture, surface, point)
+                .unwrap_or(WHITE)
         } else {
             let [r, g, b, _] = part.base_color;
             let mut color = [r, g, b];
             if part.flags & Part::PLAIN == 0 {
                 let (tint, texel) = (
                     self.vertex_color_at(surface, point),
-                    self.texel_at(part.texture, surface, point),
+                    self.texel_at(part.texture, surface, point).unwrap_or(WHITE),
                 );
                 color = std::array::from_fn(|i| color[i] * tint[i] * texel[i]);
             }
@@ -254,9 +281,8 @@ impl<'a> StrokeColors<'a> {
     /// Vertex colour at a point, linear light; white where pictures show none.
     fn vertex_color_at(&self, surface: u32, point: &RunPoint) -> [f32; 3] {
         let (shape, colors) = (self.input.shape, self.input.vertex_colors);
-        let white = [1.0; 3];
         if !self.input.style.shade.use_vertex_colors || colors.is_empty() {
-            return white;
+            return WHITE;
         }
         let of_vertex = |vertex: u32| {
             let packed = colors.get(vertex as usize).copied().unwrap_or(u32::MAX);
@@ -270,22 +296,15 @@ impl<'a> StrokeColors<'a> {
         }
         let color_at = |corner: u32| of_vertex(shape.ends_of_half_edge(corner)[0]);
         let spot = self.spots(surface, point).next();
-        spot.map_or(white, |spot| spot.mean(color_at))
+        spot.map_or(WHITE, |spot| spot.mean(color_at))
     }
 
-    /// Linear light of a texture at a point; white where there is none.
-    fn texel_at(&self, start: u32, surface: u32, point: &RunPoint) -> [f32; 3] {
-        let white = [1.0; 3];
-        let (Some(map), Some(spot)) = (self.input.map, self.spots(surface, point).next()) else {
-            return white;
-        };
+    /// Linear light of a texture at a point; `None` without one, and without texture coordinates.
+    fn texel_at(&self, start: u32, surface: u32, point: &RunPoint) -> Option<[f32; 3]> {
+        let map = self.input.map.filter(|_| start != NONE)?;
+        let spot = self.spots(surface, point).next()?;
         let face = spot.face();
-        if start == NONE {
-            return white;
-        }
-        let Some(uvs) = map.corners(face) else {
-            return white;
-        };
+        let uvs = map.corners(face)?;
         let [u, v, _] = spot.mean(|corner| {
             let [u, v] = uvs[corner as usize % 3];
             [u, v, 0.0]
@@ -301,9 +320,27 @@ impl<'a> StrokeColors<'a> {
         let pixel = self.view.pixel_at(point.depth as f32) * LINE_BLUR_PX;
         let blur = run / length.max(1e-30) * pixel;
         let [r, g, b, _] = texture::sample(self.textures.words(), start, [u, v], blur);
-        [r, g, b]
+        Some([r, g, b])
     }
 }
+
+/// Puts the picture that a style's widths come from among textures; gives where it starts, or [`NONE`] without one.
+fn width_texture(
+    style: &Style,
+    pictures: &BTreeMap<String, Picture>,
+    textures: &mut TextureStore,
+) -> Result<u32, RenderError> {
+    let Some(name) = style.line.width.picture() else {
+        return Ok(NONE);
+    };
+    let picture = Pictures::new(style, pictures)?;
+    let picture = picture.of(name)?;
+    let added = textures.add(picture.size, &picture.rgba, [Wrap::Repeat; 2]);
+    Ok(added.unwrap_or(NONE))
+}
+
+/// The colour of what has none of its own.
+const WHITE: [f32; 3] = [1.0; 3];
 
 /// Where a point lies in a face.
 #[derive(Debug, Clone, Copy)]

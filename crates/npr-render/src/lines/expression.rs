@@ -3,8 +3,10 @@
 use super::model::check_count;
 use super::options::LineOptions;
 use crate::error::RenderError;
-use npr_drawing::dash::{Dash, cut_to_dashes};
-use npr_drawing::hand::{Hand, draw_by_hand};
+use crate::manners::{StrokeManner, StrokeManners};
+use npr_drawing::dash::{Dash, cut_to_dashes, points_of_dashes};
+use npr_drawing::hand::{Hand, draw_by_hand, points_by_hand};
+use npr_drawing::lengths::cut_long_strokes;
 use npr_drawing::overshoot::{Overshoot, move_ends};
 use npr_drawing::pressure::{Curve, Pressure, press_strokes};
 use npr_drawing::room::leave_room;
@@ -26,116 +28,173 @@ pub(super) fn curve_of(stops: &[WidthStop]) -> Curve {
     Curve::new(&stops.collect::<Vec<_>>())
 }
 
-/// How strokes thin out in a style, with lengths in pixels as `px` resolves them.
-fn taper_of(style: &Style, px: &dyn Fn(Length) -> f64) -> Taper {
-    let width = &style.line.width;
-    Taper {
-        lengths_px: [width.taper.start, width.taper.end].map(px),
-        short_px: px(width.short),
-        share: f64::from(width.taper.share),
-        tip: f64::from(width.taper.tip),
-        at_all_ends: width.taper.ends == TaperEnds::All,
+/// What resolves lengths of strokes to pixels.
+struct Pixels<'a> {
+    style: &'a Style,
+    /// The height of the picture, pixels per inch, and about how many pixels a unit covers.
+    px: [f32; 3],
+}
+
+impl Pixels<'_> {
+    fn of(&self, length: Length) -> f64 {
+        let [height, dpi, world] = self.px;
+        f64::from(length.to_px(height, dpi, world))
     }
+
+    /// Pixels of a length that a pen draws, at the scale of strokes.
+    fn drawn(&self, length: Length) -> f64 {
+        self.of(self.style.line.scaled(length))
+    }
+
+    /// How strokes thin out in a manner.
+    fn taper(&self, taper: &npr_stylesheet::Taper) -> Taper {
+        Taper {
+            lengths_px: [taper.start, taper.end].map(|length| self.drawn(length)),
+            short_px: self.drawn(self.style.line.width.short),
+            share: f64::from(taper.share),
+            tip: f64::from(taper.tip),
+            at_all_ends: taper.ends == TaperEnds::All,
+        }
+    }
+
+    /// A manner, with the pressure over depth that all share.
+    fn manner(&self, manner: &StrokeManner, depth: &Pressure) -> Manner {
+        let hand = &manner.hand;
+        Manner {
+            overshoot: Overshoot {
+                beyond_px: self.drawn(hand.overshoot),
+                short_px: self.drawn(hand.undershoot),
+            },
+            pressure: Pressure {
+                along: curve_of(&manner.pressure),
+                ..depth.clone()
+            },
+            taper: self.taper(&manner.taper),
+            hand: Hand {
+                wobble_px: self.drawn(hand.wobble),
+                wave_px: self.drawn(hand.wave),
+                copies: hand.copies,
+                spread_px: self.drawn(hand.spread),
+            },
+            dash: Dash {
+                pattern_px: manner
+                    .dash
+                    .pattern
+                    .iter()
+                    .map(|length| self.drawn(*length))
+                    .collect(),
+                fit: manner.dash.fit,
+            },
+        }
+    }
+}
+
+/// How the strokes of a part are drawn, in pixels.
+#[derive(Clone)]
+struct Manner {
+    overshoot: Overshoot,
+    pressure: Pressure,
+    taper: Taper,
+    hand: Hand,
+    dash: Dash,
 }
 
 /// What a style makes of strokes in a picture.
 pub(crate) struct Expression {
     /// Lengths under which creases, and other lines, that end in the open are left out, in pixels.
     least_px: [f64; 2],
-    overshoot: Overshoot,
-    pressure: Pressure,
+    /// Length of the longest stroke, in pixels; 0 for any.
+    longest_px: f64,
     /// Share of the way to a line beside it that ink may take; 0 for all.
     room: f64,
-    taper: Taper,
-    hand: Hand,
-    dash: Dash,
+    /// How the strokes of parts are drawn, by the numbers of [`StrokeManners`].
+    manners: Vec<Manner>,
 }
 
 impl Expression {
-    /// That of a style in a view with its own pressure, with lengths in pixels as `px` resolves them. Lines that are
-    /// not smoothed are all drawn, however short.
+    /// That of a style in a view with its own pressure over depth, with lengths of a picture of `[height, dpi, world]`:
+    /// its height, pixels per inch, and about how many pixels a unit covers. Lines that are not smoothed are all drawn,
+    /// however short.
     pub fn new(
         (style, options): (&Style, &LineOptions),
-        [height, dpi, world]: [f32; 3],
-        pressure: Pressure,
+        manners: &StrokeManners,
+        px: [f32; 3],
+        depth: &Pressure,
     ) -> Self {
-        let px = |length: Length| f64::from(length.to_px(height, dpi, world));
-        let hand = &style.line.hand;
+        let pixels = Pixels { style, px };
+        let manners = manners.all.iter();
         Self {
             least_px: match options.smooth {
                 true => {
-                    let least = px(style.line.least);
-                    [px(style.line.crease_least).max(least), least]
+                    let least = pixels.of(style.line.least);
+                    [pixels.of(style.line.crease_least).max(least), least]
                 }
                 false => [0.0; 2],
             },
-            overshoot: Overshoot {
-                beyond_px: px(hand.overshoot),
-                short_px: px(hand.undershoot),
-            },
-            pressure,
+            longest_px: pixels.drawn(style.line.longest),
             room: f64::from(style.line.width.room),
-            taper: taper_of(style, &px),
-            hand: Hand {
-                wobble_px: px(hand.wobble),
-                wave_px: px(hand.wave),
-                copies: hand.copies,
-                spread_px: px(hand.spread),
-            },
-            dash: Dash {
-                pattern_px: style.line.dash.pattern.iter().copied().map(px).collect(),
-                fit: style.line.dash.fit,
-            },
+            manners: manners.map(|manner| pixels.manner(manner, depth)).collect(),
         }
     }
 
-    /// What of it does not depend on what is seen of strokes: width over depth, and the hand.
+    /// What of it does not depend on what is seen of strokes: their length, width over depth, and the hand.
     pub fn before_sight(self) -> Self {
-        let none = Taper {
-            lengths_px: [0.0; 2],
-            short_px: 0.0,
-            ..self.taper
-        };
-        Self {
-            // Whether an end is in the open hangs on what is seen of the lines around it.
-            least_px: [0.0; 2],
+        let open = |manner: Manner| Manner {
+            taper: Taper {
+                lengths_px: [0.0; 2],
+                short_px: 0.0,
+                ..manner.taper
+            },
             overshoot: Overshoot {
                 beyond_px: 0.0,
                 short_px: 0.0,
             },
             pressure: Pressure {
                 along: Curve::default(),
-                ..self.pressure
+                ..manner.pressure
             },
-            room: 0.0,
-            taper: none,
-            hand: self.hand,
+            hand: manner.hand,
             dash: Dash {
                 pattern_px: Vec::new(),
-                ..self.dash
+                ..manner.dash
             },
+        };
+        Self {
+            // Whether an end is in the open hangs on what is seen of the lines around it.
+            least_px: [0.0; 2],
+            longest_px: self.longest_px,
+            room: 0.0,
+            manners: self.manners.into_iter().map(open).collect(),
         }
     }
 
-    /// The rest of it: how wide the parts of lines are that are seen, found on samples.
-    pub fn part_width(style: &Style, px: [f32; 3]) -> PartWidth {
-        let [height, dpi, world] = px;
-        let taper = taper_of(style, &|length| f64::from(length.to_px(height, dpi, world)));
-        let pressure = curve_of(&style.line.width.pressure);
-        let along = |stop: usize| pressure.at(stop as f64 / 31.0) as f32;
-        PartWidth {
-            along: std::array::from_fn(|i| std::array::from_fn(|j| along(4 * i + j))),
-            taper_px: taper.lengths_px.map(|px| px as f32),
-            taper_share: taper.share as f32,
-            tip: taper.tip as f32,
-            short_px: taper.short_px as f32,
-            speck_px: SPECK_PX as f32,
-            at_all_ends: u32::from(taper.at_all_ends),
-            radius: SAMPLE_RADIUS,
-        }
+    /// The rest of it: how wide the parts of lines are that are seen, found on samples; for every manner. Lengths are
+    /// those of a picture of `[height, dpi, world]` as in [`Expression::new`], enlarged.
+    pub fn part_widths(
+        style: &Style,
+        manners: &StrokeManners,
+        (px, enlarged): ([f32; 3], f32),
+    ) -> Vec<PartWidth> {
+        let pixels = Pixels { style, px };
+        let width = |manner: &StrokeManner| {
+            let taper = pixels.taper(&manner.taper);
+            let pressure = curve_of(&manner.pressure);
+            let along = |stop: usize| pressure.at(stop as f64 / 31.0) as f32;
+            PartWidth {
+                along: std::array::from_fn(|i| std::array::from_fn(|j| along(4 * i + j))),
+                taper_px: taper.lengths_px.map(|px| px as f32 * enlarged),
+                taper_share: taper.share as f32,
+                tip: taper.tip as f32,
+                short_px: taper.short_px as f32 * enlarged,
+                speck_px: SPECK_PX as f32 * enlarged,
+                at_all_ends: u32::from(taper.at_all_ends),
+                radius: SAMPLE_RADIUS,
+            }
+        };
+        manners.all.iter().map(width).collect()
     }
 
-    /// Draws the visible strokes for which `is_drawn` is true so, in a picture of `size` pixels.
+    /// Draws the visible strokes so for which `manner_of` gives the number of a manner, in a picture of `size` pixels.
     ///
     /// Stubs and specks go before ends move, as what is short is about lines and not about pens. Tapers follow the
     /// ends; copies have the tapers of their line; and each copy is dashed for itself.
@@ -147,9 +206,11 @@ impl Expression {
         &self,
         strokes: &mut Vec<Stroke>,
         size: [u32; 2],
-        is_drawn: impl Fn(&Stroke) -> bool + Sync,
+        manner_of: impl Fn(&Stroke) -> Option<u32> + Sync,
     ) -> Result<(), RenderError> {
-        // Leave out stubs.
+        // Leave out stubs, and cut what is too long.
+        let of = |stroke: &Stroke| manner_of(stroke).and_then(|i| self.manners.get(i as usize));
+        let is_drawn = |stroke: &Stroke| of(stroke).is_some();
         let [of_creases, of_others] = self.least_px;
         let least_px = |stroke: &Stroke| match stroke.kind {
             _ if !is_drawn(stroke) => 0.0,
@@ -157,27 +218,38 @@ impl Expression {
             _ => of_others,
         };
         remove_stubs(strokes, size, least_px);
+        cut_long_strokes(strokes, self.longest_px, is_drawn);
 
         // Move the ends, and thin them.
-        let mut taper = self.taper;
-        if !self.overshoot.is_none() {
-            let specks = Taper {
-                lengths_px: [0.0; 2],
-                ..taper
-            };
-            taper_strokes(strokes, size, &specks, &is_drawn);
-            taper.short_px = 0.0;
-            move_ends(strokes, size, &self.overshoot, &is_drawn);
+        let moves_ends = self
+            .manners
+            .iter()
+            .any(|manner| !manner.overshoot.is_none());
+        let mut tapers: Vec<Taper> = self.manners.iter().map(|manner| manner.taper).collect();
+        if moves_ends {
+            let mut specks = tapers.clone();
+            specks
+                .iter_mut()
+                .for_each(|taper| taper.lengths_px = [0.0; 2]);
+            taper_strokes(strokes, size, |stroke| {
+                specks.get(manner_of(stroke)? as usize)
+            });
+            tapers.iter_mut().for_each(|taper| taper.short_px = 0.0);
+            move_ends(strokes, size, |stroke| Some(&of(stroke)?.overshoot));
         }
-        press_strokes(strokes, &self.pressure, &is_drawn);
-        leave_room(strokes, self.room, &is_drawn);
-        taper_strokes(strokes, size, &taper, &is_drawn);
+        press_strokes(strokes, |stroke| Some(&of(stroke)?.pressure));
+        leave_room(strokes, self.room, is_drawn);
+        taper_strokes(strokes, size, |stroke| {
+            tapers.get(manner_of(stroke)? as usize)
+        });
 
         // Let them sway, and cut them.
-        check_count(self.hand.points_after(strokes, &is_drawn))?;
-        draw_by_hand(strokes, &self.hand, &is_drawn);
-        check_count(self.dash.points_after(strokes, &is_drawn))?;
-        cut_to_dashes(strokes, &self.dash, &is_drawn);
+        let hand_of = |stroke: &Stroke| Some(&of(stroke)?.hand);
+        check_count(points_by_hand(strokes, hand_of))?;
+        draw_by_hand(strokes, hand_of);
+        let dash_of = |stroke: &Stroke| Some(&of(stroke)?.dash);
+        check_count(points_of_dashes(strokes, dash_of))?;
+        cut_to_dashes(strokes, dash_of);
         Ok(())
     }
 }

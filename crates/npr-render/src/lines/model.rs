@@ -20,6 +20,7 @@ use crate::file_light::{self, FileLight};
 use crate::frame::Frame;
 use crate::kept::{Cache, input_of};
 use crate::look;
+use crate::manners::StrokeManners;
 use crate::options::{Picture, check_size};
 use crate::part_info::PartInfo;
 use crate::pictures::Pictures;
@@ -29,7 +30,6 @@ use glam::{DVec3, Vec3};
 use npr_core::budget::{Budget, OverBudget};
 use npr_core::camera::Camera;
 use npr_core::crease::CreaseFrom;
-use npr_core::geometry::Part;
 use npr_core::line_source::LineSource;
 use npr_core::texture::TextureStore;
 use npr_drawing::artwork::StrokeBrushes;
@@ -138,9 +138,7 @@ impl LineModel {
     ) -> Result<Self, RenderError> {
         let assembly = Assembly::new(scene, Some(style));
         let mut model = Self::of_assembly(scene, &assembly, options, folder)?;
-        if options.painted
-            || style.line_paint_flags() & (Part::LINE_SURFACE | Part::LINE_TEXTURE) != 0
-        {
+        if options.painted || colors::needs_map(style) {
             let mut map = TextureMap::new(scene, &assembly, &model.shape);
             model.notices.extend(map.notice.take());
             model.map = Some(map);
@@ -414,14 +412,18 @@ impl LineModel {
         } else {
             Vec::new()
         };
-        let is_of_part = |stroke: &Stroke| (stroke.surface as usize) < self.parts.len();
-        let pressure = self.pressure_of(style, &projector);
-        let expression = Expression::new((style, options), self.px(options), pressure);
+        let manners = StrokeManners::new(&self.parts, style);
+        let manner_of = |stroke: &Stroke| {
+            let is_of_part = (stroke.surface as usize) < self.parts.len();
+            is_of_part.then(|| manners.number_of(stroke))
+        };
+        let depth = self.pressure_over_depth(style, &projector);
+        let expression = Expression::new((style, options), &manners, self.px(options), &depth);
         let expression = match is_open {
             true => expression.before_sight(),
             false => expression,
         };
-        expression.draw(&mut strokes, options.size, is_of_part)?;
+        expression.draw(&mut strokes, options.size, manner_of)?;
         check_points(&strokes)?;
         let mut surfaces = paint.into_surfaces(&self.parts);
         let object_number = surfaces.iter().map(|s| s.object_number + 1).max();
@@ -444,8 +446,8 @@ impl LineModel {
         [height, options.dpi, height / self.radius()]
     }
 
-    /// What strokes are pressed by in a view.
-    fn pressure_of(&self, style: &Style, projector: &Projector) -> Pressure {
+    /// What all strokes are pressed by in a view, however a part is drawn.
+    fn pressure_over_depth(&self, style: &Style, projector: &Projector) -> Pressure {
         let width = &style.line.width;
         let depth = &width.depth;
         let counted = depth.space.counted([depth.near, depth.far], self.radius());
@@ -456,7 +458,7 @@ impl LineModel {
             DepthSpace::World => 0.0,
         };
         Pressure {
-            along: curve_of(&width.pressure),
+            along: curve_of(&[]),
             depth: curve_of(&depth.curve),
             range: counted.map(|from_start| start + f64::from(from_start)),
         }

@@ -174,9 +174,13 @@ impl<'a> Case<'a> {
 
     /// Whether a stroke that is cut in two looks otherwise than one that is not.
     pub fn shows_cuts(&self) -> bool {
-        let line = &self.style.line;
-        let tapers = line.width.taper.is_on() && line.width.taper.ends == TaperEnds::All;
-        tapers || line.width.short.value > 0.0 || line.hand.is_on() || line.dash.is_on()
+        let width = &self.style.line.width;
+        let shows = |look: &Look<'_>| {
+            let taper = &look.line_width.taper;
+            let tapers = taper.is_on() && taper.ends == TaperEnds::All;
+            tapers || look.line_hand.is_on() || look.line_dash.is_on()
+        };
+        width.short.value > 0.0 || self.any(shows)
     }
 
     /// Whether any part may be hatched.

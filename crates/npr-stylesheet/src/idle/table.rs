@@ -285,11 +285,6 @@ pub(super) const ENTRIES: &[Entry] = &[
         |c| c.is_found_by(LineSource::Potrace),
         "--method potrace draws edges of meshes",
     ),
-    entry(
-        &["line.width.texture"],
-        |c| !c.is_frame() || !c.is_drawn_by(&[Shape, Okuya, Hull, FilterHull, Edges]),
-        "lines as curves do not follow a texture, and have the full width",
-    ),
     // Only some line methods of frames use these keys.
     of_methods(
         &[
@@ -374,11 +369,14 @@ pub(super) const ENTRIES: &[Entry] = &[
         !c.is_drawn_by(&[Shape, Strokes, Potrace])
     }),
     of_methods(&["line.potrace"], |c| !c.is_drawn_by(&[Potrace])),
-    of_methods(&["line.width.base", "line.width_factor"], |c| {
-        !c.is_drawn_by(&[
-            Shape, Okuya, Hull, FilterHull, Edges, Angle, Strokes, Potrace,
-        ])
-    }),
+    of_methods(
+        &["line.width.base", "line.width_factor", "line.scale"],
+        |c| {
+            !c.is_drawn_by(&[
+                Shape, Okuya, Hull, FilterHull, Edges, Angle, Strokes, Potrace,
+            ])
+        },
+    ),
     of_methods(
         &[
             "line.width.source",
@@ -400,6 +398,7 @@ pub(super) const ENTRIES: &[Entry] = &[
             "line.width.depth",
             "line.hand",
             "line.dash",
+            "line.longest",
         ],
         |c| !c.is_drawn_by(&[Strokes, Potrace]),
     ),
@@ -436,7 +435,7 @@ pub(super) const ENTRIES: &[Entry] = &[
             "line.width.taper.tip",
             "line.width.taper.ends",
         ],
-        |c| !c.style.line.width.taper.is_on(),
+        |c| !c.any(|look| look.line_width.taper.is_on()),
         "line.width.taper.start and end are 0",
     ),
     entry(
@@ -482,17 +481,17 @@ pub(super) const ENTRIES: &[Entry] = &[
     ),
     entry(
         &["line.hand.wave"],
-        |c| c.style.line.hand.wobble.value <= 0.0,
+        |c| !c.any(|look| look.line_hand.wobble.value > 0.0),
         "line.hand.wobble is 0",
     ),
     entry(
         &["line.hand.spread"],
-        |c| c.style.line.hand.copies <= 1,
+        |c| !c.any(|look| look.line_hand.copies > 1),
         "line.hand.copies is 1",
     ),
     entry(
         &["line.dash.fit"],
-        |c| !c.style.line.dash.is_on(),
+        |c| !c.any(|look| look.line_dash.is_on()),
         "line.dash.pattern has no gaps",
     ),
     entry(

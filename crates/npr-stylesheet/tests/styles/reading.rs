@@ -261,6 +261,75 @@ fn parents_lie_below_and_rules_add_up() {
     assert!(style.extends.is_empty());
 }
 
+/// A look with the strokes of another has all of its tones and none of its own lines, whatever either states.
+#[test]
+fn looks_share_the_strokes_of_another_style() {
+    let load = |name: &str| {
+        match name {
+        "pen.toml" => Ok("title = 'pen'\nbackground = 'red'\nline.width.base = '7px'\n\
+                          line.hand.wobble = '3px'\npaper.size = '33px'\n\
+                          [[rule]]\nmatch.object = 'Eye*'\nline.width_factor = 0.5\nshade.color = '#f00'"
+            .to_owned()),
+        other => no_files(other),
+    }
+    };
+    let pen = Style::from_toml("extends = 'pen.toml'", &load).expect("a style");
+    for look in ["night", "comic-silver", "blueprint", "ink"] {
+        let own = Style::preset(look).expect("a preset");
+        let text = format!("extends = '{look}'\nstrokes = 'pen.toml'\nline.opacity = 0.5");
+        let mut style = Style::from_toml(&text, &load).expect("a style");
+
+        // Its lines are those of the pen, but for what the file itself states.
+        assert_eq!(style.line.opacity, 0.5, "{look}");
+        style.line.opacity = pen.line.opacity;
+        assert_eq!(
+            (&style.line, &style.paper),
+            (&pen.line, &pen.paper),
+            "{look}"
+        );
+        let rule = style.rule.pop().expect("the pen's rule");
+        assert_eq!(rule.line, pen.rule[0].line, "{look}");
+        assert_eq!(
+            (rule.shade.color, &rule.matching),
+            (None, &pen.rule[0].matching),
+            "{look}"
+        );
+
+        // All else is the look's own.
+        let (line, paper) = (own.line.clone(), own.paper.clone());
+        let (title, version) = (own.title.clone(), own.version);
+        assert_eq!(
+            Style {
+                line,
+                paper,
+                title,
+                version,
+                ..style
+            },
+            own,
+            "{look}"
+        );
+
+        // An override takes strokes of presets likewise, and no files.
+        let mut set = own.clone();
+        set.set("strokes=sketch").expect("a preset");
+        let sketch = Style::preset("sketch").expect("a preset");
+        assert_eq!(
+            (&set.line, &set.paper),
+            (&sketch.line, &sketch.paper),
+            "{look}"
+        );
+        assert_eq!(set.background, own.background, "{look}");
+        assert!(set.set("strokes=pen.toml").is_err() && set.set("strokes=4").is_err());
+        assert!(set.set("strokes=no-such").is_err());
+    }
+    let circle = Style::from_toml("strokes = 'a'", &|_| Ok("strokes = 'a'".to_owned()));
+    assert!(
+        matches!(circle, Err(StyleError::Cycle { .. })),
+        "{circle:?}"
+    );
+}
+
 #[test]
 fn circles_and_crowds_of_parents_are_refused() {
     let circle = |name: &str| {

@@ -17,14 +17,21 @@ const STRAIGHT_COS: f64 = 0.5;
 /// The same where a crease goes on along edges that fold less.
 const GO_ON_COS: f64 = 0.7;
 
+/// Most edges that fold less and may end in the open, after a crease.
+const OPEN_COUNT: usize = 2;
+
+/// Least length of each of them, in lengths of the edge that it goes on from: as long as the edges of coarse meshes are.
+const OPEN_SHARE: f64 = 0.5;
+
 /// All feature lines of a shape, linked along equal kinds of one object.
 ///
 /// At a point where two edges of a kind meet the line goes on; where more meet, through the straightest pairs. Where a
 /// crease would end alone it goes on along edges that fold by the lower angle, as long as they run on within 45 degrees
-/// and if they lead to another feature: the hysteresis of [Canny 1986] along lines of a mesh. Differs: what would end
-/// in the open is not drawn. Edges between faces that
-/// are wound against each other are in the graph without a kind: in some views they are contours. O(edges + features
-/// log features).
+/// and if they lead to another feature: the hysteresis of [Canny 1986] along lines of a mesh. Differs: of what would
+/// end in the open only rows of at most two edges are drawn, each at least half as long as the one that they go on
+/// from. Ridges of coarse meshes fold more on one piece than on the next; on fine meshes such rows are noise. Edges
+/// between faces that are wound against each other are in the graph without a kind: in some views they are contours.
+/// O(edges + features log features).
 pub fn features(shape: &HalfEdgeMesh, creases: impl Into<Creases>) -> CurveGraph {
     let creases = creases.into();
     let candidates: Vec<(u32, u32)> = (0..shape.edge_count() as u32)
@@ -80,7 +87,11 @@ fn go_on(
         }
     }
 
-    // Keep those along which a crease comes to another feature.
+    // Keep those along which a crease comes to another feature, and short rows of long edges.
+    let length_of = |candidate: usize| {
+        let [a, b] = shape.ends(candidates[candidate].0);
+        shape.point(a).distance(shape.point(b))
+    };
     let vertex_of = |end: u32| shape.ends(candidates[end as usize / 2].0)[end as usize % 2];
     let mut has_feature = vec![false; shape.positions.len()];
     for end in 0..2 * strong_count as u32 {
@@ -97,7 +108,10 @@ fn go_on(
             is_there = has_feature[vertex_of(next ^ 1) as usize];
             next = mates[next as usize ^ 1];
         }
-        if is_there {
+        let long = OPEN_SHARE * length_of(start / 2);
+        let is_coarse =
+            || way.len() <= OPEN_COUNT && way.iter().all(|candidate| length_of(*candidate) >= long);
+        if is_there || is_coarse() {
             way.into_iter()
                 .for_each(|candidate| is_kept[candidate] = true);
         }

@@ -24,7 +24,7 @@ pub const EVEN_SHARE: f32 = 0.5;
 ///
 /// When a sample names a line that does not hold it.
 pub fn weigh_samples(
-    width: &PartWidth,
+    widths: &[PartWidth],
     lines: &[SampledLine],
     (samples, gaps): (&[SpineSample], &[f32]),
     verdicts: &mut [u32],
@@ -39,8 +39,9 @@ pub fn weigh_samples(
             // Keep the window within the line.
             let line = &lines[samples[element as usize].line as usize];
             let last = line.first + line.count - 1;
-            let from = element - width.radius.min(element - line.first);
-            let to = element + width.radius.min(last - element);
+            let radius = line.width(widths).radius;
+            let from = element - radius.min(element - line.first);
+            let to = element + radius.min(last - element);
 
             // Let most of the window decide.
             let mut sum = 0.0;
@@ -84,11 +85,11 @@ pub fn filter_visibility(
 ///
 /// let line = SampledLine { count: 6, ..SampledLine::default() };
 /// let samples = [SpineSample::default(); 6];
-/// let seen = visible_samples(&PartWidth::default(), &[line], &samples, &[0.0, 0.0, 3.5, 2.5, 0.0, 0.0]);
+/// let seen = visible_samples(&[PartWidth::default()], &[line], &samples, &[0.0, 0.0, 3.5, 2.5, 0.0, 0.0]);
 /// assert_eq!(seen, [1, 1, 0, 0, 1, 1]);
 /// ```
 pub fn visible_samples(
-    width: &PartWidth,
+    widths: &[PartWidth],
     lines: &[SampledLine],
     samples: &[SpineSample],
     gaps: &[f32],
@@ -96,7 +97,7 @@ pub fn visible_samples(
     // Weigh each sample with its neighbours.
     let made = || vec![0; samples.len()];
     let (mut verdicts, mut clear, mut clear_list, mut visible) = (made(), made(), made(), made());
-    weigh_samples(width, lines, (samples, gaps), &mut verdicts, &mut clear);
+    weigh_samples(widths, lines, (samples, gaps), &mut verdicts, &mut clear);
 
     // Let unclear ones take the verdict of the last clear one.
     let (slots, _) = exclusive_scan(&clear);
@@ -164,7 +165,7 @@ mod tests {
             let (lines, samples) = lines(&lengths);
             let gap = |hidden: &bool| if *hidden { 2.5 } else { 0.0 };
             let gaps: Vec<f32> = hidden.iter().take(samples.len()).map(gap).collect();
-            let seen = visible_samples(&over(radius), &lines, &samples, &gaps);
+            let seen = visible_samples(&[over(radius)], &lines, &samples, &gaps);
             let range = |line: &SampledLine| line.first as usize..(line.first + line.count) as usize;
             let walked = lines.iter().flat_map(|line| walk(&gaps[range(line)], radius as usize));
             let walked: Vec<u32> = walked.collect();
@@ -176,8 +177,8 @@ mod tests {
     fn any_radius_and_any_gap_will_do() {
         let (lines, samples) = lines(&[1, 0, 3]);
         let gaps = [f32::INFINITY, 0.0, 3.0, f32::NAN];
-        let seen = visible_samples(&over(u32::MAX), &lines, &samples, &gaps);
+        let seen = visible_samples(&[over(u32::MAX)], &lines, &samples, &gaps);
         assert_eq!(seen, [0, 1, 1, 1]);
-        assert!(visible_samples(&over(3), &[], &[], &[]).is_empty());
+        assert!(visible_samples(&[over(3)], &[], &[], &[]).is_empty());
     }
 }

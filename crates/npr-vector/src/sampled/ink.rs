@@ -42,7 +42,7 @@ pub fn part_samples(samples: &[SpineSample], visible: &[u32], starts: &mut [u32]
 /// two steps long, and parts end where their samples do. `gaps` are those of [`see_samples`](super::see_samples). Where
 /// parts may have been more before, the last line must be without width: it fills the buffer. O(samples), parallel.
 pub fn ink_samples(
-    (view, width): (&View, &PartWidth),
+    (view, widths): (&View, &[PartWidth]),
     lines: &[SampledLine],
     (samples, gaps): (&[SpineSample], &[f32]),
     parts: &Parts<'_>,
@@ -50,7 +50,7 @@ pub fn ink_samples(
 ) {
     let inking = Inking {
         view,
-        width,
+        widths,
         lines,
         samples,
         gaps,
@@ -63,7 +63,7 @@ pub fn ink_samples(
 /// Points of ink of samples of which it is known what is seen: [`part_samples`] and [`ink_samples`] with the steps
 /// between them.
 pub fn inked(
-    of_view: (&View, &PartWidth),
+    of_view: (&View, &[PartWidth]),
     lines: &[SampledLine],
     (samples, gaps): (&[SpineSample], &[f32]),
     visible: &[u32],
@@ -96,7 +96,7 @@ struct Part {
 /// What points of ink are made from.
 struct Inking<'a> {
     view: &'a View,
-    width: &'a PartWidth,
+    widths: &'a [PartWidth],
     lines: &'a [SampledLine],
     samples: &'a [SpineSample],
     gaps: &'a [f32],
@@ -131,7 +131,7 @@ impl Inking<'_> {
             };
         let along = (sample - part.first) as f32 * line.step_px;
         let factor = self.factor(line, part, [along, length], is_whole);
-        let is_speck = length < self.width.speck_px && !is_whole;
+        let is_speck = length < line.width(self.widths).speck_px && !is_whole;
         if is_speck || half_width * factor <= 0.0 {
             return InkPoint::default();
         }
@@ -210,7 +210,7 @@ impl Inking<'_> {
         is_whole: bool,
     ) -> f32 {
         // Thin out what is short and meets no other line.
-        let width = self.width;
+        let width = line.width(self.widths);
         let is_ring = is_whole && line.bits & SampledLine::CLOSED != 0;
         let free = self.free_ends(line, part);
         let is_alone = is_ring || free == [true; 2];

@@ -68,7 +68,8 @@ fn creases(shape: &HalfEdgeMesh, angles_deg: [f32; 2]) -> (BTreeSet<u32>, usize)
 }
 
 /// The pieces that are drawn: those that fold enough, and rows of those that fold by the lower angle between two such,
-/// or between one and an end of the ridge, where the border runs.
+/// or between one and an end of the ridge, where the border runs. Beside one such, rows of at most two are drawn too, as
+/// all pieces are as long as each other.
 fn expected(folds_deg: &[f64]) -> Vec<bool> {
     let [angle, weak] = ANGLES_DEG.map(f64::from);
     let is_strong = |i: usize| folds_deg[i] > angle;
@@ -79,7 +80,10 @@ fn expected(folds_deg: &[f64]) -> Vec<bool> {
         let after = (i + 1..folds_deg.len()).find(|j| is_strong(*j) || folds_deg[*j] <= weak);
         let leads = |to: Option<usize>| to.is_none_or(is_strong);
         let starts = [before, after].into_iter().flatten().any(is_strong);
-        is_strong(i) || folds_deg[i] > weak && starts && leads(before) && leads(after)
+        let first = before.map_or(0, |j| j + 1);
+        let is_short = after.unwrap_or(folds_deg.len()) - first <= 2;
+        let is_row = starts && (is_short || leads(before) && leads(after));
+        is_strong(i) || folds_deg[i] > weak && is_row
     };
     (0..folds_deg.len()).map(is_drawn).collect()
 }

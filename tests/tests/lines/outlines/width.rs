@@ -3,10 +3,12 @@
 use super::fixture::{front, front_camera, parts_scene, with};
 use npr_gpu::processor::Processor;
 use npr_mesh::testing::{plane, uv_sphere};
-use npr_render::{Model, Picture, RendererOptions};
+use npr_render::{
+    LineModel, LineModelOptions, LineOptions, Picture, RenderError, RendererOptions, Subject,
+};
 use npr_scene::Scene;
 use npr_stylesheet::Style;
-use npr_tests::{Ink, Object, draw, draw_from, draw_with, lines, placed, scene_of};
+use npr_tests::{Ink, Object, draw, draw_from, lines, placed, scene_of};
 
 /// Lines whose width follows `source`, from 2 to 16 pixels.
 fn swelling(source: &str) -> Style {
@@ -145,7 +147,6 @@ fn ball_with_a_chart() -> Scene {
 #[test]
 fn a_picture_thins_lines_where_it_is_black_and_swells_them_where_it_is_white() {
     let scene = ball_with_a_chart();
-    let model = Model::new(&scene).unwrap();
     // One half of each picture is white.
     let picture = |is_white: fn(u32, u32) -> bool| {
         let texel = |i: u32| match is_white(i % 16, i / 16) {
@@ -163,7 +164,7 @@ fn a_picture_thins_lines_where_it_is_black_and_swells_them_where_it_is_white() {
         ("top", picture(|_, y| y < 8)),
         ("bottom", picture(|_, y| y >= 8)),
     ];
-    for method in ["shape", "okuya", "edges", "hull", "filter+hull"] {
+    for method in ["strokes", "shape", "okuya", "edges", "hull", "filter+hull"] {
         for (white, picture) in &pictures {
             let style = with(swelling("constant"), &["line.width.texture=white.png"]);
             let style = with(
@@ -174,16 +175,12 @@ fn a_picture_thins_lines_where_it_is_black_and_swells_them_where_it_is_white() {
                 ],
             );
             let options = RendererOptions {
-                width_image: Some(picture.clone()),
+                pictures: [("white.png".to_owned(), picture.clone())].into(),
                 ..RendererOptions::new([200; 2])
             };
-            let ink = Ink::of(&draw_with(
-                &Processor,
-                &model,
-                &style,
-                &front_camera(),
-                &options,
-            ));
+            let subject = Subject::new(&scene, &style).unwrap();
+            let mut renderer = subject.renderer(&Processor, &style, &options).unwrap();
+            let ink = Ink::of(&renderer.draw(&front_camera()).unwrap());
             let sides = [
                 ("left", [30.5, 100.5], [1.0, 0.0]),
                 ("right", [169.5, 100.5], [1.0, 0.0]),
@@ -214,6 +211,40 @@ fn a_picture_thins_lines_where_it_is_black_and_swells_them_where_it_is_white() {
             }
         }
     }
+}
+
+/// A ramp of grey across the ball: in a drawing of lines every point is as wide as the picture is white there.
+#[test]
+fn drawings_follow_a_picture_from_place_to_place() {
+    let scene = ball_with_a_chart();
+    let settings = ["line.width.texture=ramp.png", "line.width.source=texture"];
+    let style = with(swelling("constant"), &settings);
+    let mut model =
+        LineModel::for_style(&scene, &style, &LineModelOptions::default(), None).unwrap();
+    let ramp = Picture {
+        size: [256, 1],
+        rgba: (0..=255).flat_map(|v| [v, v, v, 255]).collect(),
+    };
+    let options = LineOptions::of_style(&style, [200; 2]);
+    let missing = model.draw(&front_camera(), &style, &options);
+    assert!(matches!(missing, Err(RenderError::MissingPicture { .. })));
+    model.set_pictures([("ramp.png".to_owned(), ramp)].into());
+    let drawing = model.draw(&front_camera(), &style, &options).unwrap();
+    let points = drawing.strokes.iter().flat_map(|stroke| &stroke.points);
+    let mut widths = Vec::new();
+    for point in points {
+        // The chart is the picture of the ball from the front, but for what the lens does at its rim.
+        let share = 0.5 + 0.5 * f64::from(point.world[0]);
+        let wanted = 2.0 + 14.0 * share;
+        assert!(
+            (point.width - wanted).abs() < 0.7,
+            "{} px wide at {share}, not {wanted}",
+            point.width
+        );
+        widths.push(point.width);
+    }
+    let [least, most] = [f64::min, f64::max].map(|f| widths.iter().copied().reduce(f).unwrap());
+    assert!(least < 5.0 && most > 13.0, "{least} to {most} px");
 }
 
 #[test]

@@ -52,7 +52,7 @@ fn inked_with(
     visible: &[u32],
 ) -> Vec<InkPoint> {
     inked(
-        (&view(), width),
+        (&view(), &[*width]),
         lines,
         (samples, &vec![0.0; samples.len()]),
         visible,
@@ -117,7 +117,7 @@ fn half_widths(width: &PartWidth, seen: std::ops::Range<usize>, gap: f32, bits: 
         .iter()
         .map(|seen| if *seen == 0 { gap } else { 0.0 })
         .collect();
-    let points = inked((&view(), width), &lines, (&samples, &gaps), &visible);
+    let points = inked((&view(), &[*width]), &lines, (&samples, &gaps), &visible);
     points.iter().map(|point| point.half_width).collect()
 }
 
@@ -125,6 +125,21 @@ const TAPERED: PartWidth = PartWidth {
     taper_px: [20.0; 2],
     ..EVEN
 };
+
+#[test]
+fn every_line_takes_its_own_width() {
+    let (mut lines, samples) = lines(&[20, 20]);
+    lines[1].bits = 1 << SampledLine::WIDTH_SHIFT;
+    let half = PartWidth {
+        along: [[0.5; 4]; 8],
+        ..EVEN
+    };
+    let gaps = vec![0.0; samples.len()];
+    let seen = vec![1; samples.len()];
+    let points = inked((&view(), &[EVEN, half]), &lines, (&samples, &gaps), &seen);
+    let widths: Vec<f32> = points.iter().map(|point| point.half_width).collect();
+    assert_eq!(widths, [[2.0; 20], [1.0; 20]].concat());
+}
 
 #[test]
 fn free_ends_thin_out_and_others_do_not() {
