@@ -36,3 +36,5 @@ struct PartWidth {
     at_all_ends: u32,
     radius: u32,
 }
+
+struct PartWidths { all: array<PartWidth, 64> }

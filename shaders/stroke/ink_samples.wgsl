@@ -11,7 +11,7 @@
 //# use lib/ink_point
 
 @group(0) @binding(0) var<uniform> view: View;
-@group(0) @binding(1) var<storage, read> widths: array<PartWidth>;
+@group(0) @binding(1) var<uniform> widths: PartWidths;
 @group(0) @binding(2) var<storage, read> lines: array<SampledLine>;
 @group(0) @binding(3) var<storage, read> samples: array<SpineSample>;
 @group(0) @binding(4) var<storage, read> gaps: array<f32>;
@@ -74,8 +74,8 @@ fn free_ends(line: SampledLine, part: vec2<u32>) -> vec2<bool> {
 fn pressed(of_line: u32, share: f32) -> f32 {
     let place = clamp(share, 0.0, 1.0) * 31.0;
     let stop = min(u32(place), 30u);
-    let low = widths[of_line].along[stop / 4u][stop % 4u];
-    let high = widths[of_line].along[(stop + 1u) / 4u][(stop + 1u) % 4u];
+    let low = widths.all[of_line].along[stop / 4u][stop % 4u];
+    let high = widths.all[of_line].along[(stop + 1u) / 4u][(stop + 1u) % 4u];
     return low + (high - low) * (place - f32(stop));
 }
 
@@ -90,16 +90,16 @@ fn factor_at(line: SampledLine, part: vec2<u32>, along: f32, length: f32, is_who
     let is_ring = is_whole && (line.bits & LINE_CLOSED) != 0u;
     let free = free_ends(line, part);
     let of_line = line.bits >> LINE_WIDTH_SHIFT;
-    let short_px = widths[of_line].short_px;
+    let short_px = widths.all[of_line].short_px;
     var factor = 1.0;
     if (is_ring || all(free)) && length < short_px { factor = max(2.0 * length / short_px - 1.0, 0.0); }
     if is_ring { return factor; }
 
     // Thin out free ends, and press along the part.
-    let most = min(widths[of_line].taper_share, 0.5) * length;
-    let reach = min(widths[of_line].taper_px, vec2<f32>(most));
-    let everywhere = widths[of_line].at_all_ends != 0u;
-    let tip = widths[of_line].tip;
+    let most = min(widths.all[of_line].taper_share, 0.5) * length;
+    let reach = min(widths.all[of_line].taper_px, vec2<f32>(most));
+    let everywhere = widths.all[of_line].at_all_ends != 0u;
+    let tip = widths.all[of_line].tip;
     var taper = 1.0;
     if reach.x > 0.0 && (free.x || everywhere) { taper = min(taper, tapered(tip, along, reach.x)); }
     if reach.y > 0.0 && (free.y || everywhere) { taper = min(taper, tapered(tip, length - along, reach.y)); }
@@ -133,7 +133,7 @@ fn main(
     let is_whole = all(part == vec2<u32>(line.first, line.first + line.count));
     let along = f32(own - part.x) * line.step_px;
     let half_width = sample.half_width * factor_at(line, part, along, length, is_whole);
-    let speck_px = widths[line.bits >> LINE_WIDTH_SHIFT].speck_px;
+    let speck_px = widths.all[line.bits >> LINE_WIDTH_SHIFT].speck_px;
     if (length < speck_px && !is_whole) || half_width <= 0.0 { return; }
 
     // Lay the image of the brush on it.

@@ -6,7 +6,7 @@
 //# use lib/grid
 //# use lib/spine
 
-@group(0) @binding(0) var<storage, read> widths: array<PartWidth>;
+@group(0) @binding(0) var<uniform> widths: PartWidths;
 @group(0) @binding(1) var<storage, read> samples: array<SpineSample>;
 @group(0) @binding(2) var<storage, read> lines: array<SampledLine>;
 @group(0) @binding(3) var<storage, read> gaps: array<f32>;
@@ -28,7 +28,7 @@ fn main(
     if element >= arrayLength(&samples) { return; }
 
     let line = lines[samples[element].line];
-    let radius = widths[line.bits >> LINE_WIDTH_SHIFT].radius;
+    let radius = widths.all[line.bits >> LINE_WIDTH_SHIFT].radius;
     let first = element - min(radius, element - line.first);
     let last = element + min(radius, line.first + line.count - 1u - element);
     var sum = 0.0;

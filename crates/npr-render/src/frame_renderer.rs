@@ -298,8 +298,7 @@ impl Passes {
             StrokePasses::plan(
                 &mut frame,
                 targets,
-                (styled.brushes.all.len(), styled.manners.all.len()),
-                needs.sample_room,
+                (styled.brushes.all.len(), needs.sample_room),
                 !features.ribbons,
             )
         });

@@ -7,6 +7,7 @@
 //! 3. Make strokes of what is seen: `run_assembly` cuts it into the parts of [`run`]; `relabel_intersections`,
 //!    `duplicates`, `merge`, `overshoot`, `corner` and `smooth` tidy them.
 
+mod bridge;
 pub mod bvh;
 pub mod contour;
 pub(crate) mod corner;

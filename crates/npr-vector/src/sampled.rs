@@ -128,3 +128,25 @@ gpu_layout!(PartWidth {
     at_all_ends,
     radius
 });
+
+/// The widths of parts of lines that are drawn in several manners.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct PartWidths {
+    /// One for each manner; behind those of all, anything.
+    pub all: [PartWidth; PartWidths::MOST],
+}
+gpu_layout!(PartWidths { all });
+
+impl PartWidths {
+    /// Most manners.
+    pub const MOST: usize = 64;
+
+    /// Those of so many manners, at most [`PartWidths::MOST`]; of more the first count.
+    pub fn of(widths: &[PartWidth]) -> Self {
+        let of = |number: usize| widths.get(number).copied().unwrap_or_default();
+        Self {
+            all: std::array::from_fn(of),
+        }
+    }
+}

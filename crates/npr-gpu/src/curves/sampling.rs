@@ -23,7 +23,7 @@ pub struct SampledFrame {
     pub samples: ResourceId,
     /// [`SampledLine`](npr_vector::sampled::SampledLine)s; the last, without width, fills the buffer of samples.
     pub lines: ResourceId,
-    /// [`PartWidth`](npr_vector::sampled::PartWidth)s, of which every line names one.
+    /// [`PartWidths`](npr_vector::sampled::PartWidths), of which every line names one.
     pub widths: ResourceId,
 }
 

@@ -5,7 +5,7 @@ use npr_core::geometry::{PosedVertex, Triangle};
 use npr_core::window::{View, Window};
 use npr_vector::brush::{Brush, Brushes};
 use npr_vector::ink_point::InkPoint;
-use npr_vector::sampled::{self, PartWidth, Parts, SampledLine, Scenery, SpineSample};
+use npr_vector::sampled::{self, PartWidths, Parts, SampledLine, Scenery, SpineSample};
 use npr_vector::stroke_ink::draw;
 
 /// How far in front of each sample of a line lies what hides it, in sizes of a pixel; 0 if nothing.
@@ -44,7 +44,7 @@ pub const WEIGH_SAMPLES: Pass = Pass {
     name: "stroke.weigh_samples",
     shader: npr_shaders::STROKE_WEIGH_SAMPLES,
     slots: &[
-        read::<PartWidth>("widths"),
+        uniform::<PartWidths>("widths"),
         read::<SpineSample>("samples"),
         read::<SampledLine>("lines"),
         read::<f32>("gaps"),
@@ -56,7 +56,13 @@ pub const WEIGH_SAMPLES: Pass = Pass {
     twin: |b| {
         let (verdicts, clear) = (b.write(4), b.write(5));
         let seen = (b.read(1), b.read(3));
-        sampled::weigh_samples(b.read(0), b.read(2), seen, verdicts, clear);
+        sampled::weigh_samples(
+            &b.one::<PartWidths>(0).all,
+            b.read(2),
+            seen,
+            verdicts,
+            clear,
+        );
     },
 };
 
@@ -98,7 +104,7 @@ pub const INK_SAMPLES: Pass = Pass {
     shader: npr_shaders::STROKE_INK_SAMPLES,
     slots: &[
         uniform::<View>("view"),
-        read::<PartWidth>("widths"),
+        uniform::<PartWidths>("widths"),
         read::<SampledLine>("lines"),
         read::<SpineSample>("samples"),
         read::<f32>("gaps"),
@@ -116,7 +122,8 @@ pub const INK_SAMPLES: Pass = Pass {
             firsts: b.read(7),
         };
         let seen = (b.read(3), b.read(4));
-        sampled::ink_samples((&b.one(0), b.read(1)), b.read(2), seen, &parts, b.write(8));
+        let widths = &b.one::<PartWidths>(1).all[..];
+        sampled::ink_samples((&b.one(0), widths), b.read(2), seen, &parts, b.write(8));
     },
 };
 

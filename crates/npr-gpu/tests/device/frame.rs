@@ -17,6 +17,7 @@ use npr_gpu::processor::Processor;
 use npr_style::backdrop::{ContrastBias, TILE, TileRims};
 use npr_style::compose::TriangleConstants;
 use npr_vector::ink_point::InkPoint;
+use npr_vector::sampled::PartWidths;
 use std::collections::BTreeMap;
 
 /// Slots that bind a resource of another name: two passes work on the grid of the mask only and call it the window.
@@ -300,7 +301,7 @@ impl Builder {
     fn see_lines(&mut self) {
         // Hand over the lines.
         let (lines, samples) = sampled_lines();
-        self.give_buffer("widths", &PART_WIDTHS);
+        self.give_uniform("widths", &[PartWidths::of(&PART_WIDTHS)]);
         self.give_buffer("lines", &lines);
         self.give_buffer("samples", &samples);
         for name in ["gaps", "verdicts", "clear", "visible", "part_starts"] {

@@ -11,7 +11,7 @@ use npr_gpu::graph::Graph;
 use npr_gpu::pass::Format;
 use npr_vector::ink_point::InkPoint;
 use npr_vector::sampled::{
-    PartWidth, SampledLine, Scenery, SpineSample, inked, see_samples, visible_samples,
+    PartWidths, SampledLine, Scenery, SpineSample, inked, see_samples, visible_samples,
 };
 
 const SIZE: [u32; 2] = [160, 120];
@@ -73,7 +73,7 @@ impl Sampled {
             triangles: graph.buffer::<Triangle>("triangles", self.triangles.len()),
             samples: graph.buffer::<SpineSample>("samples", self.samples.len()),
             lines: graph.buffer::<SampledLine>("lines", self.lines.len()),
-            widths: graph.buffer::<PartWidth>("widths", PART_WIDTHS.len()),
+            widths: graph.uniform::<PartWidths>("widths"),
         };
         let points = add_sampling(&mut graph, &on);
         let mut session = engine.prepare(graph).unwrap();
@@ -85,7 +85,10 @@ impl Sampled {
             (on.triangles, bytemuck::cast_slice(&self.triangles)),
             (on.samples, bytemuck::cast_slice(&self.samples)),
             (on.lines, bytemuck::cast_slice(&self.lines)),
-            (on.widths, bytemuck::cast_slice(&PART_WIDTHS)),
+            (
+                on.widths,
+                bytemuck::cast_slice(&[PartWidths::of(&PART_WIDTHS)]),
+            ),
         ] {
             session.write(id, words).unwrap();
         }

@@ -23,7 +23,7 @@ use npr_stylesheet::{LineVisibility, Style};
 use npr_vector::brush::Brush;
 use npr_vector::ink_point::InkPoint;
 use npr_vector::rank::work::Arguments;
-use npr_vector::sampled::{PartWidth, SampledLine, SpineSample};
+use npr_vector::sampled::{PartWidth, PartWidths, SampledLine, SpineSample};
 use npr_vector::stroke::{Drawing, Stroke};
 
 /// Points that there is room for at first; frames with more of them make more room.
@@ -78,6 +78,7 @@ pub(crate) fn sample_room(
             !style.curve_sources().eq([LineSource::Edges]),
             "method potrace",
         ),
+        (manners.all.len() > PartWidths::MOST, "many manners"),
         (options.layers, "layers"),
         (is_tiled, "tiles"),
     ];
@@ -170,19 +171,18 @@ enum Input {
 }
 
 impl StrokePasses {
-    /// Adds the passes that ink strokes with so many brushes and manners into a picture and its keys, which are cleared
+    /// Adds the passes that ink strokes with `brush_count` brushes into a picture and its keys, which are cleared
     /// before where `clears`; for more than no samples those that find out what is seen of so many.
     pub fn plan(
         frame: &mut FrameGraph,
         targets: [ResourceId; 2],
-        (brush_count, manner_count): (usize, usize),
-        sample_room: usize,
+        (brush_count, sample_room): (usize, usize),
         clears: bool,
     ) -> Self {
         let brushes = frame.graph.buffer::<Brush>("brushes", brush_count.max(1));
         let (input, points, size) = match sample_room {
             0 => Self::plan_points(frame),
-            _ => Self::plan_samples(frame, sample_room, manner_count),
+            _ => Self::plan_samples(frame, sample_room),
         };
         let bound = [frame.output_window, points, brushes, frame.texels];
         frame
@@ -202,15 +202,11 @@ impl StrokePasses {
         (Input::Points { points, size }, points, Some(drawn))
     }
 
-    fn plan_samples(
-        frame: &mut FrameGraph,
-        room: usize,
-        width_count: usize,
-    ) -> (Input, ResourceId, Option<WorkSize>) {
+    fn plan_samples(frame: &mut FrameGraph, room: usize) -> (Input, ResourceId, Option<WorkSize>) {
         let graph = &mut frame.graph;
         let samples = graph.buffer::<SpineSample>("samples of lines", room);
         let lines = graph.buffer::<SampledLine>("sampled lines", most_strokes(room) + 1);
-        let widths = graph.buffer::<PartWidth>("widths of parts", width_count);
+        let widths = graph.uniform::<PartWidths>("widths of parts");
         let on = SampledFrame {
             view: frame.view,
             window: frame.color_window,
@@ -284,7 +280,7 @@ impl StrokePasses {
                 };
                 write(session, samples, &sampled.samples)?;
                 write(session, lines, &sampled.lines)?;
-                Ok(write(session, widths, part_widths)?)
+                Ok(write(session, widths, &[PartWidths::of(part_widths)])?)
             }
         }
     }

@@ -76,16 +76,16 @@ fn mates(meetings: &Meetings<'_>) -> Vec<usize> {
     mates
 }
 
-fn ends_of(runs: &[Run]) -> Vec<Option<End>> {
+pub(super) fn ends_of(runs: &[Run]) -> Vec<Option<End>> {
     (0..2 * runs.len()).map(|end| End::new(runs, end)).collect()
 }
 
 /// An end of an open run; end `2 r` is the first point of run `r`, `2 r + 1` its last.
-struct End {
-    place: [f64; 2],
+pub(super) struct End {
+    pub place: [f64; 2],
     depth: f64,
     /// Unit direction out of the run.
-    out: [f64; 2],
+    pub out: [f64; 2],
     is_dot: bool,
 }
 
@@ -155,16 +155,17 @@ fn near_pairs(ends: &[Option<End>], reach_px: f64) -> Vec<[usize; 2]> {
 }
 
 /// The ends that come near each other.
-struct Meetings<'a> {
+pub(super) struct Meetings<'a> {
     runs: &'a [Run],
     ends: &'a [Option<End>],
-    pairs: Vec<[usize; 2]>,
+    /// Their numbers, the lower one first.
+    pub pairs: Vec<[usize; 2]>,
     /// For each end, how many others of its kind and object come as near as the ends of a corner.
     beside: Vec<u32>,
 }
 
 impl<'a> Meetings<'a> {
-    fn new(runs: &'a [Run], ends: &'a [Option<End>], reach_px: f64) -> Self {
+    pub fn new(runs: &'a [Run], ends: &'a [Option<End>], reach_px: f64) -> Self {
         let mut found = Self {
             runs,
             ends,
@@ -188,13 +189,21 @@ impl<'a> Meetings<'a> {
         Some(distance(end_a.place, end_b.place))
     }
 
+    /// Whether the lines of two ends are alike, and both lie about as deep.
+    pub fn may_join(&self, [a, b]: [usize; 2]) -> bool {
+        let (Some(end_a), Some(end_b)) = (&self.ends[a], &self.ends[b]) else {
+            return false;
+        };
+        let near = (end_a.depth - end_b.depth).abs() <= DEPTH_SHARE * end_a.depth.abs();
+        near && self.runs[a / 2].may_join(&self.runs[b / 2])
+    }
+
     /// How badly two ends fit; `None` where they must not be joined.
     fn cost(&self, [a, b]: [usize; 2]) -> Option<f64> {
-        let (run_a, run_b) = (&self.runs[a / 2], &self.runs[b / 2]);
+        let run_a = &self.runs[a / 2];
         let (end_a, end_b) = (self.ends[a].as_ref()?, self.ends[b].as_ref()?);
-        let near = (end_a.depth - end_b.depth).abs() <= DEPTH_SHARE * end_a.depth.abs();
         let same = a / 2 == b / 2;
-        if !run_a.may_join(run_b) || !near || (same && run_a.length() < 4.0 * DIRECTION_PX) {
+        if !self.may_join([a, b]) || (same && run_a.length() < 4.0 * DIRECTION_PX) {
             return None;
         }
         let gap = self.gap([a, b])?;
@@ -258,7 +267,7 @@ fn trim(runs: &mut [Run], ends: &[Option<End>], mates: &[usize]) {
 }
 
 /// Follows the mates from run to run: from free ends first, then around what closes.
-fn join(runs: Vec<Run>, mates: &[usize]) -> Vec<Run> {
+pub(super) fn join(runs: Vec<Run>, mates: &[usize]) -> Vec<Run> {
     let mut used = vec![false; runs.len()];
     let open = (0..mates.len()).filter(|end| mates[*end] == usize::MAX);
     let starts = open.chain((0..runs.len()).map(|run| 2 * run));

@@ -1,5 +1,6 @@
 //! Joins, cuts and smooths runs before they become strokes.
 
+use crate::mesh_lines::bridge::bridge_gaps;
 use crate::mesh_lines::corner::split;
 use crate::mesh_lines::duplicates::{leave_out_short_fragments, suppress};
 use crate::mesh_lines::line_settings::LineSettings;
@@ -21,6 +22,7 @@ pub(crate) fn calmed(mut found: Vec<Run>, settings: &LineSettings, lens: Lens) -
     if settings.smooth {
         smooth(&mut found, lens);
         found = merge_ends(cut_overshoot(suppress(found)), FACING_PX);
+        found = bridge_gaps(found);
         smooth(&mut found, lens);
         found = leave_out_short_fragments(found);
     }
