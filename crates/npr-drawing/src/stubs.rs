@@ -24,11 +24,14 @@ const LEAST_LEFT_PX: f64 = 9.0;
 /// Distance of the places of a stroke at which it is looked for others, in pixels.
 const STEP_PX: f64 = 1.0;
 
+/// Share of the least length below which a ring goes: a pen fills it, so it is a dot.
+const RING_SHARE: f64 = 0.5;
+
 /// Most rounds in which what met stubs alone is a stub too.
 const ROUNDS_MOST: usize = 16;
 
 /// Removes stubs from the visible open strokes that are shorter than the pixels that `least_px` gives for them, in a
-/// picture of `size` pixels. Strokes of 0 pixels stay.
+/// picture of `size` pixels, and rings that are shorter than half of them. Strokes of 0 pixels stay.
 ///
 /// A stub is the part of a line from an open end, which meets nothing, to the first other line that meets it, or all of
 /// it where none does, if it is below those pixels. A line meets places within half its width, and within 4.5 pixels;
@@ -42,6 +45,12 @@ pub fn remove_stubs(
     size: [u32; 2],
     least_px: impl Fn(&Stroke) -> f64 + Sync,
 ) {
+    // Remove rings that are dots.
+    let is_dot = |stroke: &Stroke| {
+        stroke.closed && stroke.is_visible() && stroke.length() < RING_SHARE * least_px(stroke)
+    };
+    strokes.retain(|stroke| !is_dot(stroke));
+
     // Choose what may go.
     let lengths: Vec<f64> = strokes.par_iter().map(Stroke::length).collect();
     let short = strokes.par_iter().zip(&lengths).map(|(stroke, length)| {

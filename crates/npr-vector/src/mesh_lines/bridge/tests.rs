@@ -38,7 +38,7 @@ fn a_pen_comes_from_one_cusp_to_the_next() {
         contour(3, [38.0, 2.0], [38.0, 60.0]),
     ];
     for third in between {
-        assert!(!joins([&both[..], &[third.clone()]].concat()));
+        assert!(!joins([&both[..], std::slice::from_ref(&third)].concat()));
         let hidden = Run {
             occluders: 1,
             ..third
