@@ -36,8 +36,8 @@ pub struct RendererOptions {
     /// Pixels per inch, for lengths in millimetres.
     pub dpi: f32,
     /// How much larger the frame is than the picture whose strokes it shows, 1 for its own: strokes are found for a
-    /// picture of `size` divided by that, rounded down, and enlarged, so that a small frame and a large one are the same
-    /// drawing. Lengths of strokes in `px` are pixels of the small one.
+    /// picture of `size` divided by that, rounded down, and enlarged, so that a small frame and a large one are the
+    /// same drawing. Lengths of strokes in `px` are pixels of the small one.
     pub enlarged: u32,
     /// The picture behind the scene, where the style names one.
     pub background_image: Option<Picture>,
@@ -72,8 +72,8 @@ impl RendererOptions {
         self.dpi / self.enlarged.max(1) as f32
     }
 
-    /// Options for a frame of `size` pixels with strokes of its own: 96 pixels per inch, no pictures, fonts, smoke or layers, 4
-    /// GiB.
+    /// Options for a frame of `size` pixels with strokes of its own: 96 pixels per inch, no pictures, fonts, smoke or
+    /// layers, 4 GiB.
     pub fn new(size: [u32; 2]) -> Self {
         Self {
             size,

@@ -13,8 +13,8 @@ const SMOKE_RAMP: &str = "smoke.ramp_image";
 const SMOKE_HATCH: &str = "smoke.ink.hatch.image";
 
 impl Style {
-    /// The pictures for tones, lines, widths and blends, as pairs of key and picture name. Each name is listed once, with the
-    /// first key that has it.
+    /// The pictures for tones, lines, widths and blends, as pairs of key and picture name. Each name is listed once,
+    /// with the first key that has it.
     ///
     /// The caller loads them: no files are opened here. That of the background is not among them.
     pub fn named_pictures(&self) -> Vec<(String, &str)> {

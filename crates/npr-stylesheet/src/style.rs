@@ -25,8 +25,8 @@ pub struct Style {
     /// Empty once a style has been read.
     #[serde(skip_serializing_if = "Parents::is_empty")]
     pub extends: Parents,
-    /// The preset or style file whose strokes are drawn in place of those of the parents: its tables `line` and `paper`,
-    /// and what its rules say about lines; default none. So several looks share one way of drawing lines.
+    /// The preset or style file whose strokes are drawn in place of those of the parents: its tables `line` and
+    /// `paper`, and what its rules say about lines; default none. So several looks share one way of drawing lines.
     /// Empty once a style has been read.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub strokes: String,

@@ -144,8 +144,8 @@ fn the_border_holds_ends() {
 }
 
 proptest! {
-    /// Dots go, and of others only short open visible strokes that may go lose anything; of those that are left none is alone; the order of
-    /// strokes changes nothing.
+    /// Dots go, and of others only short open visible strokes that may go lose anything; of those that are left none is
+    /// alone; the order of strokes changes nothing.
     #[test]
     fn what_is_left_holds(strokes in strokes(), least_px in 10.0..300.0f64, turn in 0..8_usize) {
         let strokes: Vec<Stroke> = strokes

@@ -20,7 +20,7 @@ const GO_ON_COS: f64 = 0.7;
 /// Most edges that fold less and may end in the open, after a crease.
 const OPEN_COUNT: usize = 2;
 
-/// Least length of each of them, in lengths of the edge that it goes on from: as long as the edges of coarse meshes are.
+/// Least length of each of them, in lengths of the edge that it goes on from: edges of coarse meshes are as long.
 const OPEN_SHARE: f64 = 0.5;
 
 /// All feature lines of a shape, linked along equal kinds of one object.

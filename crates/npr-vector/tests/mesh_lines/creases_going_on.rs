@@ -68,8 +68,8 @@ fn creases(shape: &HalfEdgeMesh, angles_deg: [f32; 2]) -> (BTreeSet<u32>, usize)
 }
 
 /// The pieces that are drawn: those that fold enough, and rows of those that fold by the lower angle between two such,
-/// or between one and an end of the ridge, where the border runs. Beside one such, rows of at most two are drawn too, as
-/// all pieces are as long as each other.
+/// or between one and an end of the ridge, where the border runs. Beside one such, rows of at most two are drawn too,
+/// as all pieces are as long as each other.
 fn expected(folds_deg: &[f64]) -> Vec<bool> {
     let [angle, weak] = ANGLES_DEG.map(f64::from);
     let is_strong = |i: usize| folds_deg[i] > angle;
