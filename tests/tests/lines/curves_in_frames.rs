@@ -265,6 +265,37 @@ fn strokes_beyond_the_memory_limit_are_refused() {
     );
 }
 
+/// A scene too large for strokes within the memory that they may take is drawn by `shape` as a whole, which is told.
+#[test]
+fn a_scene_too_large_for_strokes_is_drawn_by_shapes() {
+    let (scene, style) = (scene(), lines("strokes"));
+    let options = |memory_limit| LineModelOptions {
+        memory_limit,
+        ..LineModelOptions::default()
+    };
+    assert!(
+        Subject::lines(&scene, &style, &options(1 << 30), None)
+            .unwrap()
+            .is_some()
+    );
+    let lines_of_scene = Subject::lines(&scene, &style, &options(1 << 10), None).unwrap();
+    assert!(lines_of_scene.is_none());
+    let subject = Subject {
+        model: Model::new(&scene).unwrap(),
+        lines: lines_of_scene,
+    };
+    let frame = |style: &Style| {
+        let options = RendererOptions::new(SIZE);
+        let mut renderer = subject.renderer(&Processor, style, &options).unwrap();
+        renderer.draw(&front()).unwrap()
+    };
+    let (instead, shape) = (frame(&style), frame(&lines("shape")));
+    assert!(instead.rgba == shape.rgba && Ink::of(&instead).count() > 500);
+    let told = "lines of method strokes are drawn by method shape, for want of a line model";
+    assert_eq!(instead.notices, [told]);
+    assert!(shape.notices.is_empty());
+}
+
 /// Strokes from pixels are drawn over surfaces as curves are, and cover about as much.
 #[test]
 fn strokes_from_pixels_are_drawn_as_curves_are() {
