@@ -406,7 +406,12 @@ fn line_ids_are_of_strokes_that_pass_there() {
 /// nearest in the picture; nothing else has one.
 #[test]
 fn lines_have_the_depth_of_their_place() {
-    let corners = [[-1.4, -0.9, 1.0], [1.6, -1.0, 0.4], [1.3, 1.2, -2.0], [-1.2, 0.8, -1.5]];
+    let corners = [
+        [-1.4, -0.9, 1.0],
+        [1.6, -1.0, 0.4],
+        [1.3, 1.2, -2.0],
+        [-1.2, 0.8, -1.5],
+    ];
     let corners = corners.map(Vec3::from);
     let sheet = mapped(&plane(1, 1), |[x, y, _]| {
         let [below, above] = [[0, 1], [3, 2]].map(|[a, b]| corners[a].lerp(corners[b], x));
@@ -443,14 +448,20 @@ fn lines_have_the_depth_of_their_place() {
             }
             let middle = middle(at);
             let distance = |px: &[f32; 2]| (px[0] - middle[0]).hypot(px[1] - middle[1]);
-            let nearest = edges.iter().map(|(px, _)| distance(px)).fold(f32::MAX, f32::min);
+            let nearest = edges
+                .iter()
+                .map(|(px, _)| distance(px))
+                .fold(f32::MAX, f32::min);
             // At corners, places on both edges are as near as each other.
             let near = edges.iter().filter(|(px, _)| distance(px) < nearest + 0.1);
             let (low, high) = near.fold((f32::MAX, 0.0f32), |(low, high), (_, depth)| {
                 (low.min(*depth), high.max(*depth))
             });
             let range = low - 1e-3..=high + 1e-3;
-            assert!(range.contains(&pixel.stroke_depth), "{at:?}: {pixel:?} {range:?}");
+            assert!(
+                range.contains(&pixel.stroke_depth),
+                "{at:?}: {pixel:?} {range:?}"
+            );
             count += 1;
         }
         assert!(count > 500, "{count} pixels");
@@ -472,8 +483,30 @@ fn the_depth_of_a_line_is_that_of_its_stroke() {
                 (low.min(depth), high.max(depth))
             });
             let range = low - 1e-4..=high + 1e-4;
-            assert!(range.contains(&pixel.stroke_depth), "{at:?}: {pixel:?} {range:?}");
+            assert!(
+                range.contains(&pixel.stroke_depth),
+                "{at:?}: {pixel:?} {range:?}"
+            );
         }
+    }
+}
+
+/// Stamps that lie beside their stroke have its depth too.
+#[test]
+fn stamps_have_the_depth_of_their_stroke() {
+    let stamps = [
+        "line.brush.mapping=stamps",
+        "line.brush.stamp.size=3",
+        "line.brush.stamp.scatter=2",
+    ];
+    let frame = drawn(&Processor, &corner(), &style(&stamps), &camera());
+    let strokes = || pixels(&frame).filter(|(_, pixel)| pixel.stroke > 0);
+    assert!(strokes().count() > 1000);
+    for (at, pixel) in strokes() {
+        assert!(
+            (2.0..9.0).contains(&pixel.stroke_depth),
+            "{at:?}: {pixel:?}"
+        );
     }
 }
 

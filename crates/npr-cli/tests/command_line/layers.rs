@@ -148,8 +148,16 @@ fn a_file_of_layers_holds_the_picture_and_what_it_is_made_of() {
     let (lines, ids) = (layers.lines(), layers.channel("id.line"));
     let depths = layers.channel("line_depth.Z");
     let is_far = |depth: &f32| *depth == 1e10;
-    assert!(ids.iter().zip(&depths).all(|(id, depth)| (*id == 0.0) == is_far(depth)));
-    assert!(depths.iter().all(|depth| is_far(depth) || (1.0..100.0).contains(depth)));
+    assert!(
+        ids.iter()
+            .zip(&depths)
+            .all(|(id, depth)| (*id == 0.0) == is_far(depth))
+    );
+    assert!(
+        depths
+            .iter()
+            .all(|depth| is_far(depth) || (1.0..100.0).contains(depth))
+    );
     assert!(
         lines
             .iter()

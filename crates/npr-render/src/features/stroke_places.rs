@@ -5,6 +5,7 @@ use crate::frame_graph::pixel_count;
 use crate::layer_pixel::LayerPixel;
 use crate::look::StyledModel;
 use npr_core::window::{View, Window};
+use npr_drawing::ink::Images;
 use npr_vector::brush::Brushes;
 use npr_vector::stroke::{Drawing, Stroke, StrokePoint};
 use npr_vector::stroke_ink;
@@ -13,7 +14,8 @@ use npr_vector::stroke_ink;
 const FRINGE_PX: f64 = 1.0;
 
 /// Bytes of a pixel while places are found: its number with its key, its place, and how near that is.
-pub(crate) const PIXEL_BYTES: usize = 2 * size_of::<u32>() + size_of::<StrokePlace>() + size_of::<f64>();
+pub(crate) const PIXEL_BYTES: usize =
+    2 * size_of::<u32>() + size_of::<StrokePlace>() + size_of::<f64>();
 
 /// What a pixel shows of a stroke.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -71,9 +73,19 @@ pub(crate) fn stroke_places(
             places: &mut places,
             nearest: &mut nearest,
         };
-        picture.find(number, stroke);
+        let stamps_px = match styled.brushes.lay_of(stroke, base_px).images {
+            Images::Stamps(stamps) => stamps.reach() * widest(stroke),
+            Images::Once | Images::ByLength(_) => 0.0,
+        };
+        picture.find(number, stroke, stamps_px);
     }
     places
+}
+
+/// The largest width of a stroke, in pixels.
+fn widest(stroke: &Stroke) -> f64 {
+    let widths = stroke.points.iter().map(|point| point.width);
+    widths.fold(0.0, f64::max)
 }
 
 /// The pixels whose places are looked for.
@@ -86,8 +98,8 @@ struct Picture<'a> {
 }
 
 impl Picture<'_> {
-    /// Finds the places of the pixels of one stroke.
-    fn find(&mut self, number: u32, stroke: &Stroke) {
+    /// Finds the places of the pixels of one stroke, whose stamps reach so many pixels from it.
+    fn find(&mut self, number: u32, stroke: &Stroke, stamps_px: f64) {
         if !stroke.is_visible() {
             return;
         }
@@ -95,16 +107,21 @@ impl Picture<'_> {
         let points: Vec<&StrokePoint> = stroke.points.iter().chain(back).collect();
         let mut along = 0.0;
         for pair in points.windows(2) {
-            along += self.find_on(number, [pair[0], pair[1]], along);
+            along += self.find_on(number, ([pair[0], pair[1]], along), stamps_px);
         }
     }
 
     /// Finds those whose nearest piece is this one, `along` pixels from the start of the stroke; gives its length.
-    fn find_on(&mut self, number: u32, [from, to]: [&StrokePoint; 2], along: f64) -> f64 {
+    fn find_on(
+        &mut self,
+        number: u32,
+        ([from, to], along): ([&StrokePoint; 2], f64),
+        stamps_px: f64,
+    ) -> f64 {
         // Bound the piece.
         let way = [0, 1].map(|k| to.position[k] - from.position[k]);
         let length = way[0].hypot(way[1]);
-        let reach = 0.5 * from.width.max(to.width) + FRINGE_PX;
+        let reach = (0.5 * from.width.max(to.width)).max(stamps_px) + FRINGE_PX;
         if !(length > 0.0 && length.is_finite() && reach.is_finite()) {
             return 0.0;
         }
@@ -193,7 +210,7 @@ mod tests {
             places: &mut places,
             nearest: &mut nearest,
         };
-        picture.find(3, &stroke);
+        picture.find(3, &stroke, 0.0);
         places
     }
 
@@ -234,7 +251,10 @@ mod tests {
             let down = 0.5 * (down[0] + down[1]);
             assert!((down - half_way[1]).abs() < 5e-3, "{down}");
             // Another stroke shows there, and no piece comes near.
-            assert_eq!([places[4 * 20 + 7].depth, places[18 * 20 + 1].depth], [1e10; 2]);
+            assert_eq!(
+                [places[4 * 20 + 7].depth, places[18 * 20 + 1].depth],
+                [1e10; 2]
+            );
         }
     }
 }
