@@ -124,7 +124,7 @@ fn thresholds() -> impl Iterator<Item = f32> {
 /// The table of `docs/limits.md`: whether depths are compared with planes, the threshold, and the shares.
 const TABLE: [(bool, f32, f32, f32, f32); 6] = [
     (false, 0.0003, 1.0, 1.0, 1.0),
-    (false, 0.0013, 0.02, 1.0, 0.65),
+    (false, 0.0013, 0.02, 1.0, 0.63),
     (false, 0.01, 0.02, 0.0, 0.0),
     (true, 0.0003, 1.0, 0.0, 0.07),
     (true, 0.0006, 0.78, 0.0, 0.02),
