@@ -402,8 +402,8 @@ fn line_ids_are_of_strokes_that_pass_there() {
     }
 }
 
-/// The outline of a sheet that leans away has, at every pixel, the depth of the place on the sheet's own edges that lies
-/// nearest in the picture; nothing else has one.
+/// The outline of a sheet that leans away has, at every pixel, the depth of the place on the sheet's own edges that
+/// lies nearest in the picture; nothing else has one.
 #[test]
 fn lines_have_the_depth_of_their_place() {
     let corners = [

@@ -179,8 +179,8 @@ mod tests {
         }
     }
 
-    /// The places of 20 x 20 pixels on a stroke that goes right and turns down, as a view sees it: number 3, which shows
-    /// at all of them but one.
+    /// The places of 20 x 20 pixels on a stroke that goes right and turns down, as a view sees it: number 3, which
+    /// shows at all of them but one.
     fn places_on_corner(view: &View) -> Vec<StrokePlace> {
         let corner = [
             point(2.0, 5.0, 1.0),
