@@ -60,8 +60,8 @@ pub fn two_balls() -> Scene {
     scene
 }
 
-/// A floor that runs far back, a board with a panel that stands out by a fifth of a millimetre, and a ball of few faces:
-/// no threshold of an image filter suits all three.
+/// A floor that runs far back, a board with a panel that stands out by a fifth of a millimetre, and a ball of few
+/// faces: no threshold of an image filter suits all three.
 pub fn steps() -> Scene {
     let mut scene = Scene::new(
         view([0.0, 15.0, 46.0], [0.0, 8.5, 0.0], 32.0),
