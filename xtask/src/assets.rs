@@ -28,10 +28,11 @@ use crate::file;
 type Sample = (&'static str, fn() -> scene::Scene);
 
 /// Every sample.
-const SCENES: [Sample; 5] = [
+const SCENES: [Sample; 6] = [
     ("cube_plane.glb", figures::cube_plane),
     ("teapot_box_plane.glb", figures::teapot_box_plane),
     ("two_balls.glb", figures::two_balls),
+    ("steps.glb", figures::steps),
     ("still_life.glb", still_life::still_life),
     ("beams.glb", beams::beams),
 ];

@@ -71,13 +71,14 @@ fn channels_of(rgba: Vec<u8>, layers: Vec<LayerPixel>) -> SmallVec<[AnyChannel<F
         let lights = layers.iter().map(|pixel| f16::from_f32(pixel.line[i]));
         AnyChannel::new(name, FlatSamples::F16(lights.collect()))
     });
-    let floats: [(&str, Value); 8] = [
+    let floats: [(&str, Value); 9] = [
         ("depth.Z", |pixel| pixel.depth),
         ("normal.X", |pixel| pixel.normal[0]),
         ("normal.Y", |pixel| pixel.normal[1]),
         ("normal.Z", |pixel| pixel.normal[2]),
         ("id.object", |pixel| pixel.object as f32),
         ("id.line", |pixel| pixel.stroke as f32),
+        ("line_depth.Z", |pixel| pixel.stroke_depth),
         ("uv.U", |pixel| pixel.uv[0]),
         ("uv.V", |pixel| pixel.uv[1]),
     ];
@@ -97,6 +98,8 @@ pub enum DebugLayer {
     Line,
     /// Depth: white is near, dark is far, black is nothing.
     Depth,
+    /// Depth of the lines, in the same way.
+    LineDepth,
     /// Normals in the world: red is right, green is up, blue is towards +z, from -1 to 1.
     Normal,
     /// A colour for every object.
@@ -128,7 +131,7 @@ impl DebugLayer {
         let values = layers.filter_map(Self::to_possible_value);
         let line = |value: clap::builder::PossibleValue| {
             let help = value.get_help().map(ToString::to_string);
-            format!("{:8} {}\n", value.get_name(), help.unwrap_or_default())
+            format!("{:10} {}\n", value.get_name(), help.unwrap_or_default())
         };
         values.map(line).collect()
     }
@@ -136,7 +139,11 @@ impl DebugLayer {
     /// Puts the layer into the place of a frame's colours, and lets go of its layers. O(pixels).
     pub fn show_in(self, frame: &mut Frame) {
         let layers = take(&mut frame.layers);
-        let depths = layers.iter().map(|pixel| pixel.depth);
+        let depth_of: Value = match self {
+            Self::LineDepth => |pixel| pixel.stroke_depth,
+            _ => |pixel| pixel.depth,
+        };
+        let depths = layers.iter().map(depth_of);
         let seen = depths.filter(|depth| *depth < LayerPixel::FAR);
         let (near, far) = seen.fold((f32::INFINITY, 0.0_f32), |(near, far), depth| {
             (near.min(depth), far.max(depth))
@@ -149,9 +156,9 @@ impl DebugLayer {
                     let [r, g, b, alpha] = pixel.line;
                     [r, g, b].map(|light| encoder.byte(light + under * (1.0 - alpha)) as u8)
                 }
-                Self::Depth if pixel.depth >= LayerPixel::FAR => [0; 3],
-                Self::Depth => {
-                    let share = (pixel.depth - near) / (far - near).max(f32::MIN_POSITIVE);
+                Self::Depth | Self::LineDepth if depth_of(pixel) >= LayerPixel::FAR => [0; 3],
+                Self::Depth | Self::LineDepth => {
+                    let share = (depth_of(pixel) - near) / (far - near).max(f32::MIN_POSITIVE);
                     [byte(1.0 - (1.0 - FARTHEST) * share); 3]
                 }
                 Self::Normal => pixel.normal.map(|n| byte(0.5 + 0.5 * n)),
@@ -194,6 +201,7 @@ mod tests {
             normal: [0.0; 3],
             object: 1,
             stroke: 2,
+            stroke_depth: 2.5,
             uv: [3.0, -0.5],
         };
         let frame = Frame {

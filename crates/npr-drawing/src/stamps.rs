@@ -39,6 +39,11 @@ pub struct Stamps {
 }
 
 impl Stamps {
+    /// How far from its place on the stroke the ink of a stamp may lie, in widths of the stroke there.
+    pub fn reach(&self) -> f64 {
+        self.scatter + 0.5 * self.size * (1.0 + self.jitter) * (1.0 + self.length)
+    }
+
     /// The stamps of a part of a stroke, two points each; `inked` gives what a point of the stroke has beside its
     /// place.
     ///
@@ -185,6 +190,22 @@ mod tests {
 
     fn middle([a, b]: &[InkPoint; 2]) -> [f64; 2] {
         [0, 1].map(|i| 0.5 * (f64::from(a.px[i]) + f64::from(b.px[i])))
+    }
+
+    proptest! {
+        /// No end of a stamp, with its half width around it, lies farther from its place.
+        #[test]
+        fn stamps_stay_within_their_reach(
+            size in 0.1f64..5.0, length in 0.1f64..3.0, jitter in 0f64..1.0, turn in 0f64..3.0, scatter in 0f64..4.0,
+            number: u32,
+        ) {
+            let stamps = Stamps { size, length, jitter, turn, scatter, ..PLAIN };
+            let point = InkPoint { half_width: 2.0, ..InkPoint::default() };
+            for end in stamps.stamp(point, [0.6, 0.8], Seed::new(7, number)) {
+                let off = f64::from(end.px[0]).hypot(f64::from(end.px[1]));
+                prop_assert!(off + f64::from(end.half_width) < 4.0 * stamps.reach() + 1e-3);
+            }
+        }
     }
 
     #[test]

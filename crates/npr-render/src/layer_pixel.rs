@@ -16,12 +16,15 @@ pub struct LayerPixel {
     pub object: u32,
     /// Number of the stroke that shows, counted from 1 in every frame; 0 where none does.
     pub stroke: u32,
+    /// Distance of that stroke's line from the eye along the view axis, in scene units, where the pixel lies nearest to
+    /// it; [`LayerPixel::FAR`] where no stroke shows.
+    pub stroke_depth: f32,
     /// Where on that stroke: pixels along it from its start, and across, -1 at its left edge and 1 at its right.
     pub uv: [f32; 2],
 }
 
 impl LayerPixel {
-    /// The depth of a pixel without a surface.
+    /// The depth of a pixel without a surface, or without a stroke.
     pub const FAR: f32 = 1e10;
 
     /// A pixel without surface and lines.
@@ -31,6 +34,7 @@ impl LayerPixel {
         normal: [0.0; 3],
         object: 0,
         stroke: 0,
+        stroke_depth: Self::FAR,
         uv: [0.0; 2],
     };
 }

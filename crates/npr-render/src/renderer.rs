@@ -360,7 +360,8 @@ impl<'a> Renderer<'a> {
         }
         for (pixel, place) in frame.layers.iter_mut().zip(&begun.stroke_places) {
             if pixel.line[3] > 0.0 {
-                (pixel.stroke, pixel.uv) = (place.number, place.uv);
+                (pixel.stroke, pixel.stroke_depth, pixel.uv) =
+                    (place.number, place.depth, place.uv);
             }
         }
         begun.strokes.tell(&mut frame);

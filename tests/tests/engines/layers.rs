@@ -193,6 +193,7 @@ const LAYERS_OF_NOTHING: LayerPixel = LayerPixel {
     normal: [0.0; 3],
     object: 0,
     stroke: 0,
+    stroke_depth: LayerPixel::FAR,
     uv: [0.0; 2],
 };
 
@@ -282,7 +283,8 @@ fn both_engines_agree() {
         }
         let turned = Vec3::from(a.normal).distance(Vec3::from(b.normal));
         let is_alike = (a.depth - b.depth).abs() <= 1e-4 * a.depth && turned < 1e-3;
-        apart += i32::from(!is_alike || a.stroke != b.stroke);
+        let has_other_line = (a.stroke, a.stroke_depth) != (b.stroke, b.stroke_depth);
+        apart += i32::from(!is_alike || has_other_line);
     }
     assert!(
         apart <= (SIZE[0] * SIZE[1] / 1000) as i32,
@@ -400,6 +402,116 @@ fn line_ids_are_of_strokes_that_pass_there() {
     }
 }
 
+/// The outline of a sheet that leans away has, at every pixel, the depth of the place on the sheet's own edges that
+/// lies nearest in the picture; nothing else has one.
+#[test]
+fn lines_have_the_depth_of_their_place() {
+    let corners = [
+        [-1.4, -0.9, 1.0],
+        [1.6, -1.0, 0.4],
+        [1.3, 1.2, -2.0],
+        [-1.2, 0.8, -1.5],
+    ];
+    let corners = corners.map(Vec3::from);
+    let sheet = mapped(&plane(1, 1), |[x, y, _]| {
+        let [below, above] = [[0, 1], [3, 2]].map(|[a, b]| corners[a].lerp(corners[b], x));
+        below.lerp(above, y).to_array()
+    });
+    let scene = scene_of(&[Object::new("Sheet", sheet).double_sided()]);
+    let style = lines("strokes");
+    for (engine, camera) in engines().flat_map(|engine| [camera(), parallel()].map(|c| (engine, c)))
+    {
+        // Places along the edges, in the picture and in depth.
+        let subject = Subject::new(&scene, &style).unwrap();
+        let view = camera.view(SIZE, subject.model.bounds());
+        let [.., back] = camera.axes().map(Vec3::from);
+        let place = |point: Vec3| {
+            let clip = npr_core::surface::apply_point(&view.clip_from_world, point.to_array());
+            let x = 0.5 + 0.5 * clip[0] / clip[3];
+            let y = 0.5 - 0.5 * clip[1] / clip[3];
+            let [width, height] = SIZE.map(|side| side as f32);
+            let depth = (Vec3::from(camera.eye) - point).dot(back);
+            ([x * width, y * height], depth)
+        };
+        let along = |i: usize| {
+            let ends = [corners[i], corners[(i + 1) % 4]];
+            (0..=2000).map(move |k| ends[0].lerp(ends[1], k as f32 / 2000.0))
+        };
+        let edges: Vec<_> = (0..4).flat_map(along).map(place).collect();
+
+        let frame = draw_of(engine, &subject, &style, &camera, &with_layers());
+        let mut count = 0;
+        for (at, pixel) in pixels(&frame) {
+            if pixel.stroke == 0 {
+                assert_eq!(pixel.stroke_depth, LayerPixel::FAR, "{at:?}");
+                continue;
+            }
+            let middle = middle(at);
+            let distance = |px: &[f32; 2]| (px[0] - middle[0]).hypot(px[1] - middle[1]);
+            let nearest = edges
+                .iter()
+                .map(|(px, _)| distance(px))
+                .fold(f32::MAX, f32::min);
+            // At corners, places on both edges are as near as each other.
+            let near = edges.iter().filter(|(px, _)| distance(px) < nearest + 0.1);
+            let (low, high) = near.fold((f32::MAX, 0.0f32), |(low, high), (_, depth)| {
+                (low.min(*depth), high.max(*depth))
+            });
+            let range = low - 1e-3..=high + 1e-3;
+            assert!(
+                range.contains(&pixel.stroke_depth),
+                "{at:?}: {pixel:?} {range:?}"
+            );
+            count += 1;
+        }
+        assert!(count > 500, "{count} pixels");
+    }
+}
+
+/// Where lines lie before each other, the depth is that of the stroke that shows.
+#[test]
+fn the_depth_of_a_line_is_that_of_its_stroke() {
+    let (scene, style) = (corner(), style(&["line.width.base=12px"]));
+    let subject = Subject::new(&scene, &style).unwrap();
+    let drawing = strokes_of(&subject, &style);
+    for engine in engines() {
+        let frame = draw_of(engine, &subject, &style, &camera(), &with_layers());
+        for (at, pixel) in pixels(&frame).filter(|(_, pixel)| pixel.stroke > 0) {
+            let points = &drawing.strokes[pixel.stroke as usize - 1].points;
+            let depths = points.iter().map(|point| point.depth as f32);
+            let (low, high) = depths.fold((f32::MAX, 0.0f32), |(low, high), depth| {
+                (low.min(depth), high.max(depth))
+            });
+            let range = low - 1e-4..=high + 1e-4;
+            assert!(
+                range.contains(&pixel.stroke_depth),
+                "{at:?}: {pixel:?} {range:?}"
+            );
+        }
+    }
+}
+
+/// Stamps that lie beside their stroke have its depth too.
+#[test]
+fn stamps_have_the_depth_of_their_stroke() {
+    let stamps = [
+        "line.width.base=4px",
+        "line.brush.tip=charcoal",
+        "line.brush.mapping=stamps",
+        "line.brush.stamp.size=3",
+        "line.brush.stamp.scatter=2",
+    ];
+    let frame = drawn(&Processor, &corner(), &style(&stamps), &camera());
+    let strokes = || pixels(&frame).filter(|(_, pixel)| pixel.stroke > 0);
+    assert!(strokes().count() > 500);
+    for (at, pixel) in strokes() {
+        assert!(
+            (2.0..20.0).contains(&pixel.stroke_depth),
+            "{at:?}: {pixel:?}"
+        );
+    }
+}
+
 /// How far a place lies beside the ink of a stroke, in pixels.
 fn distance(stroke: &npr_vector::stroke::Stroke, [x, y]: [f32; 2]) -> f64 {
     let place = glam::DVec2::new(f64::from(x), f64::from(y));
@@ -444,7 +556,8 @@ fn tiles_do_not_show() {
 fn is_alike(a: &LayerPixel, b: &LayerPixel) -> bool {
     let line = (0..4).all(|i| (a.line[i] - b.line[i]).abs() < 0.01);
     let normal = (0..3).all(|i| (a.normal[i] - b.normal[i]).abs() < 1e-3);
-    let depth = (a.depth - b.depth).abs() <= 1e-4 * a.depth;
+    let depths = [(a.depth, b.depth), (a.stroke_depth, b.stroke_depth)];
+    let depth = depths.iter().all(|(a, b)| (a - b).abs() <= 1e-4 * a);
     line && normal && depth && (a.object, a.stroke) == (b.object, b.stroke)
 }
 

@@ -8,6 +8,7 @@ mod detection;
 mod fixture;
 mod hidden;
 mod joins;
+mod limits;
 mod mask_scale;
 mod pipeline;
 mod quad;

@@ -60,6 +60,34 @@ pub fn two_balls() -> Scene {
     scene
 }
 
+/// A floor that runs far back, a board with a panel that stands out by a fifth of a millimetre, and a ball of few
+/// faces: no threshold of an image filter suits all three.
+pub fn steps() -> Scene {
+    let mut scene = Scene::new(
+        view([0.0, 15.0, 46.0], [0.0, 8.5, 0.0], 32.0),
+        OVER_THE_SHOULDER,
+    );
+    let ground = scene.material("Ground", 0xd8dce0);
+    let board = scene.material("Board", 0xc98f57);
+    let glaze = scene.material("Glaze", 0x4f9a94);
+    scene.stand(
+        "Floor",
+        cuboid(600.0, 1.0, 1200.0, ground),
+        [0.0, -1.0, -540.0],
+        0.0,
+    );
+    let panel = cuboid(8.0, 10.0, 1.0, board).warp(|p| p + Vec3::new(0.0, 3.0, 0.52));
+    scene.stand(
+        "Board",
+        cuboid(13.0, 16.0, 2.0, board).join(panel),
+        [-9.0, 0.0, 0.0],
+        0.0,
+    );
+    let round = ball(6.0, 24, glaze).warp(|p| p + Vec3::Y * 6.0);
+    scene.stand("Ball", round, [9.0, 0.0, 0.0], 0.0);
+    scene
+}
+
 /// A ball of 6 cm radius that touches y = 0.
 fn sphere_on_ground(paint: Paint) -> Shape {
     ball(6.0, 64, paint).warp(|p| p + Vec3::Y * 6.0)

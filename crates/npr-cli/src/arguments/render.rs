@@ -11,9 +11,9 @@ pub struct RenderArguments {
     /// Scene: .glb, .gltf, .vrm, .obj, .stl or .ply; or a volume of smoke: .vdb or .npy; - reads standard input.
     #[arg(required_unless_present_any = ["dump_style", "debug_layer"])]
     pub scene: Option<PathBuf>,
-    /// Picture to write: .png; .exr with layers for compositing: beauty, line, depth, normal, object and line id; or
-    /// .svg where the style is lines only; - writes a .png to standard output [default: the scene's name with .png, in
-    /// the current folder].
+    /// Picture to write: .png; .exr with layers for compositing: beauty, line, depth, normal, object and line id, line
+    /// depth; or .svg where the style is lines only; - writes a .png to standard output [default: the scene's name with
+    /// .png, in the current folder].
     #[arg(short, long, value_name = "OUT")]
     pub output: Option<PathBuf>,
     /// Draw the picture N times as large as --size, 1 to 16, with the strokes of that size: what was tried small comes

@@ -8,7 +8,15 @@ use std::collections::{BTreeMap, BTreeSet};
 const PAIR: &[u8] = b"o Left\nv -2 0 0\nv -0.5 0 0\nv -2 2 0\nf 1 2 3\n\
     o Right\nv 0.5 0 -3\nv 2 0 -3\nv 2 2 -3\nf 4 5 6\n";
 
-const LAYERS: [&str; 6] = ["line", "depth", "normal", "object", "stroke", "uv"];
+const LAYERS: [&str; 7] = [
+    "line",
+    "depth",
+    "line-depth",
+    "normal",
+    "object",
+    "stroke",
+    "uv",
+];
 
 /// The colours of a layer's picture, the most frequent first.
 fn colors(layer: &str) -> Vec<[u8; 3]> {
@@ -49,6 +57,8 @@ fn layers_show_what_they_are_about() {
     assert_eq!(colors("normal"), [[128; 3], [128, 128, 255]]);
     // The nearer is white, the farther dark.
     assert_eq!(colors("depth"), [[0; 3], [255; 3], [26; 3]]);
+    // So are their outlines, which lie in them.
+    assert_eq!(colors("line-depth"), [[0; 3], [255; 3], [26; 3]]);
     // The outline of each is one stroke.
     assert_eq!(colors("stroke").len(), 3);
     // Both sides of strokes, and all of the way along them.

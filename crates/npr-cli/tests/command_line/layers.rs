@@ -108,6 +108,7 @@ fn a_file_of_layers_holds_the_picture_and_what_it_is_made_of() {
         "line.B",
         "line.G",
         "line.R",
+        "line_depth.Z",
         "normal.X",
         "normal.Y",
         "normal.Z",
@@ -143,8 +144,20 @@ fn a_file_of_layers_holds_the_picture_and_what_it_is_made_of() {
         }
     }
 
-    // Lines have ids where they have ink.
+    // Lines have ids and depths where they have ink.
     let (lines, ids) = (layers.lines(), layers.channel("id.line"));
+    let depths = layers.channel("line_depth.Z");
+    let is_far = |depth: &f32| *depth == 1e10;
+    assert!(
+        ids.iter()
+            .zip(&depths)
+            .all(|(id, depth)| (*id == 0.0) == is_far(depth))
+    );
+    assert!(
+        depths
+            .iter()
+            .all(|depth| is_far(depth) || (1.0..100.0).contains(depth))
+    );
     assert!(
         lines
             .iter()

@@ -2,6 +2,7 @@
 //! pixel.
 
 use super::line_features::LineFeatures;
+use super::stroke_places;
 use crate::error::RenderError;
 use crate::frame::Frame;
 use crate::frame_graph::{FrameGraph, Grids, Layers, pixel_count, write};
@@ -19,9 +20,8 @@ use npr_style::compose::Compose;
 use npr_stylesheet::{OutlineMethod, Style};
 use rayon::prelude::*;
 
-/// Bytes of a pixel on the host: its layers, as much again for whoever writes them, and the numbers of strokes with
-/// their keys.
-const PIXEL_BYTES: usize = 2 * size_of::<LayerPixel>() + 8;
+/// Bytes of a pixel on the host: its layers, as much again for whoever writes them, and what it shows of strokes.
+const PIXEL_BYTES: usize = 2 * size_of::<LayerPixel>() + stroke_places::PIXEL_BYTES;
 
 /// The passes that draw the picture without lines, and what is read to make layers.
 #[derive(Debug, Clone)]
@@ -53,7 +53,7 @@ pub(crate) fn notices(style: &Style, features: LineFeatures, has_surfaces: bool)
         ),
         (
             has_others,
-            "line ids number strokes: lines of other methods than strokes and potrace have none",
+            "line ids number strokes: lines of other methods than strokes and potrace have none, and no depth",
         ),
         (
             !has_surfaces,
