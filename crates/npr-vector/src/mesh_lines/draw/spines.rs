@@ -11,6 +11,7 @@ use crate::mesh_lines::line::Line;
 use crate::mesh_lines::line_settings::LineSettings;
 use crate::mesh_lines::merge::{TOUCHING_PX, merge_ends};
 use crate::mesh_lines::relabel_intersections::relabel_intersections;
+use crate::mesh_lines::run::Run;
 use crate::mesh_lines::run_assembly::runs;
 use crate::mesh_lines::smooth::smooth;
 use crate::mesh_lines::visibility::{Piece, Span};
@@ -66,6 +67,9 @@ pub fn spines(
         let lines = view.open_lines(graph, &mut toll)?;
         found.extend(runs(shape, projector, graph, (&lines, false)));
     }
+    for run in &mut found {
+        draw_before_card(run, shape, projector);
+    }
 
     // Join those that touch, cut them at corners, and smooth them; samples lie on straight ways in the world between
     // points.
@@ -84,6 +88,28 @@ pub fn spines(
         strokes: painted(found, shape, look, lens),
         left_out: 0,
     })
+}
+
+/// Moves the line of a card, where it is one, towards the eye by half of the card's width: in front of a card that
+/// bends or bulges over its own line. Its image stays.
+fn draw_before_card(run: &mut Run, shape: &HalfEdgeMesh, projector: &Projector) {
+    for point in &mut run.points {
+        if shape.polyline_of(point.edge).is_none() {
+            continue;
+        }
+        let [low, high] = shape
+            .ends(point.edge)
+            .map(|vertex| shape.cards.point(vertex));
+        let (Some(low), Some(high)) = (low, high) else {
+            continue;
+        };
+        let width = low.width + f64::from(point.t) * (high.width - low.width);
+        let way = projector.sight_start(point.world) - point.world;
+        // Never as far as the eye.
+        let step = (0.5 * width).min(0.5 * way.length());
+        point.world += way.normalize_or_zero() * step;
+        point.depth = projector.depth(point.world);
+    }
 }
 
 impl View<'_> {
