@@ -26,6 +26,12 @@ const END_SHARE: f64 = 1.0 / 3.0;
 /// Factor by which one end must be wider than the other to be the root for it.
 const CLEARLY_WIDER: f64 = 1.05;
 
+/// Turn, in radians, from one point of a line to the next above which there are more between them: 5 degrees.
+const ROUND_STEP: f64 = 0.0873;
+
+/// Most steps between two points.
+const MOST_STEPS: f64 = 8.0;
+
 /// Least distance of points that follow each other on a line, as a share of their mean distance.
 const LEAST_STEP: f64 = 1e-3;
 
@@ -193,7 +199,7 @@ impl<'a> Piece<'a> {
                 point.along = -point.along;
             }
         }
-        Some(points)
+        Some(rounded(&points))
     }
 
     fn point(&self, vertex: u32) -> DVec3 {
@@ -287,6 +293,47 @@ fn finished(mut points: Vec<CardPoint>) -> Option<Vec<CardPoint>> {
     let widest = kept.iter().map(|point| point.width).fold(0.0, f64::max);
     let length = length_of(&kept);
     (length.is_finite() && length > 0.0 && length >= LEAST_RATIO * widest).then_some(kept)
+}
+
+/// The line with points between its own, where it turns: a curve through these and in their directions, as a hand draws
+/// it, and not a chain of straight rows: Hermite's cubics.
+fn rounded(points: &[CardPoint]) -> Vec<CardPoint> {
+    let mut found = vec![points[0]];
+    for pair in points.windows(2) {
+        let [from, to] = [pair[0], pair[1]];
+        // Of small angles the chord is the angle.
+        let turn = from.along.distance(to.along);
+        let count = (turn / ROUND_STEP).ceil().clamp(1.0, MOST_STEPS) as u32;
+        let shares = (1..count).map(|step| f64::from(step) / f64::from(count));
+        found.extend(shares.map(|share| between(&from, &to, share)));
+        found.push(to);
+    }
+    found
+}
+
+/// A point on the curve between two.
+fn between(from: &CardPoint, to: &CardPoint, t: f64) -> CardPoint {
+    let chord = from.place.distance(to.place);
+    let [start, end] = [from.along * chord, to.along * chord];
+    let s = 1.0 - t;
+    let place = from.place * (s * s * (1.0 + 2.0 * t))
+        + start * (s * s * t)
+        + to.place * (t * t * (1.0 + 2.0 * s))
+        - end * (t * t * s);
+    let along = (to.place - from.place) * (6.0 * s * t)
+        + start * (s * (s - 2.0 * t))
+        + end * (t * (t - 2.0 * s));
+    let along = along.normalize_or(from.along);
+    let width = from.width + t * (to.width - from.width);
+    let across = from.across.lerp(to.across, t);
+    let across = (across - along * across.dot(along)).normalize_or_zero() * width;
+    CardPoint {
+        place,
+        along,
+        across,
+        width,
+        vertex: if t < 0.5 { from.vertex } else { to.vertex },
+    }
 }
 
 /// Whether a line starts at its card's root: the wider end, or of two that are about as wide the lower.

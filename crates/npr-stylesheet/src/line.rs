@@ -126,9 +126,9 @@ pub struct Line {
     /// tiles need `exact`.
     pub visibility: LineVisibility = LineVisibility::default(),
     /// How cards are drawn, pieces of hair and grass at least four times as long as wide; default `outline`. `centre`
-    /// draws each by one line, from its root to its tip, as wide as it looks and never thinner than `width.base` times
-    /// `width.min`; `width_factor` of a rule makes such lines finer. Of methods `strokes` and `potrace`, and of
-    /// drawings as curves.
+    /// draws each by one line, from its root to its tip, as wide as it looks but no thinner than the thinnest line of
+    /// the style; `width_factor` of a rule makes such lines finer. Of methods `strokes` and `potrace`, and of drawings
+    /// as curves.
     pub cards: CardLines = CardLines::default(),
     /// Angle, in degrees, from which a stroke is cut where it turns sharply in the picture, 10..180; default 180,
     /// never. 60 draws a box in strokes along its sides, each with the brush's own ends. Of drawings as curves only.

@@ -150,7 +150,11 @@ impl<'a> Widths<'a> {
     fn of_card(&self, point: &CardPoint) -> f32 {
         let projector = self.input.projector;
         let px = projector.pixels_per_unit(projector.depth(point.place).max(projector.near()));
-        let least = f64::from(self.outline.base_width * self.outline.min_factor);
+        let factor = match self.input.style.line.width.source {
+            WidthSource::Constant | WidthSource::Texture => self.outline.max_factor,
+            _ => self.outline.min_factor,
+        };
+        let least = f64::from(self.outline.base_width * factor);
         let least_px = match self.outline.flags & Outline::WORLD_WIDTH {
             0 => least,
             _ => least * px,
