@@ -5,7 +5,8 @@
 //! ends are where the folded sides are nearest, and the line runs half way between places at equal shares of both
 //! sides' lengths. What lies between the sides does not count: a strip may have several columns, and bend across.
 
-use super::{CardPoint, Piece, finished, length_of};
+use super::piece::{Piece, area_within, finished, length_of};
+use crate::card_lines::CardPoint;
 use glam::DVec3;
 
 /// Places along the sides at which their distance is measured.
@@ -66,7 +67,7 @@ pub(super) fn line(piece: &Piece<'_>, corners: &[u32]) -> Option<Vec<CardPoint>>
     let points = finished(border.middle(ends))?;
 
     // See whether it covers what the faces cover.
-    let covered = super::area_within(&points, [0.0, length_of(&points)]);
+    let covered = area_within(&points, [0.0, length_of(&points)]);
     let area = piece.area();
     (covered <= COVER_MOST * area && covered >= COVER_LEAST * area).then_some(points)
 }

@@ -1,9 +1,10 @@
 //! The line through the middles of a tube's cross-sections.
 //!
-//! Ways along edges from one end of a tube to the other cut it into sections [Lazarus and Verroust 1999, level set
-//! diagrams]: places as far from the end. Each has to be one piece, or the tube forks. Its middle is a point of the line.
+//! Ways along edges from one end of a tube to the other cut it into sections [Lazarus & Verroust 1999]: places as far
+//! from the end. Each has to be one piece, or the tube forks. Its middle is a point of the line.
 
-use super::{CardPoint, LEAST_RATIO, Piece, finished};
+use super::piece::{LEAST_RATIO, Piece, finished};
+use crate::card_lines::CardPoint;
 use glam::DVec3;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -124,7 +125,7 @@ impl<'a> Net<'a> {
         self.piece.point(self.vertices[vertex as usize])
     }
 
-    /// Lengths of the shortest ways along edges from a vertex to all [Dijkstra 1959].
+    /// Lengths of the shortest ways along edges from a vertex to all, by Dijkstra's method.
     fn ways_from(&self, start: u32) -> Vec<f64> {
         let mut ways = vec![f64::INFINITY; self.vertices.len()];
         ways[start as usize] = 0.0;

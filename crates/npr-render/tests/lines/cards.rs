@@ -138,13 +138,13 @@ fn each_visible_blade_is_one_stroke_from_its_root_to_its_tip() {
 fn a_picture_of_lines_has_the_blades_too() {
     let options = LineOptions {
         method: LineSource::Potrace,
-        ..LineOptions::new(SIZE)
+        ..LineOptions::new([1280, 800])
     };
     let drawing = draw(&tuft(), &centres(), EYE, &options);
     let found = grass(&drawing);
     assert!(found.iter().all(|stroke| stroke.kind == Kind::Marked));
     let length: f64 = found.iter().map(|stroke| stroke.length()).sum();
-    let exact = draw(&tuft(), &centres(), EYE, &LineOptions::new(SIZE));
+    let exact = draw(&tuft(), &centres(), EYE, &LineOptions::new([1280, 800]));
     let expected: f64 = grass(&exact).iter().map(|stroke| stroke.length()).sum();
     assert!(
         (0.7..1.1).contains(&(length / expected)),
