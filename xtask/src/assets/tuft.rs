@@ -34,7 +34,12 @@ pub fn tuft() -> Scene {
     let skin = scene.material("Skin", 0xeac7a4);
     let hair = scene.material("Hair", 0x6b4a34);
 
-    scene.stand("Ground", slab(120.0, 2.0, 60.0, 1.0, ground), [0.0, -2.0, -8.0], 0.0);
+    scene.stand(
+        "Ground",
+        slab(120.0, 2.0, 60.0, 1.0, ground),
+        [0.0, -2.0, -8.0],
+        0.0,
+    );
     scene.stand(GRASS, blades(grass), [-12.0, 0.0, 0.0], 0.0);
     let lump = ball(5.0, 26, stone).warp(|p| Vec3::new(p.x * 1.3, p.y * 0.7 + 2.0, p.z));
     scene.stand("Stone", lump, [-3.5, 0.0, 4.0], 0.0);

@@ -245,6 +245,9 @@ impl Maker<'_> {
 
     /// Whether the start or the end of an item is the root or the tip of a card: nothing is joined there.
     fn ends_card(&self, (item, end): (&Item<'_>, f64)) -> bool {
+        if self.shape.cards.is_empty() {
+            return false;
+        }
         let (piece, span) = (&item.line.piece, &item.span);
         let [at, bound] = match end {
             0.0 => [span.from, piece.range[0]],

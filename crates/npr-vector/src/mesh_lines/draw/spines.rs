@@ -71,8 +71,9 @@ pub fn spines(
         let lines = view.open_lines(graph, &mut toll)?;
         found.extend(runs(shape, projector, graph, (&lines, false)));
     }
-    for run in &mut found {
-        draw_before_card(run, shape, projector);
+    if !shape.cards.is_empty() {
+        let runs = found.iter_mut();
+        runs.for_each(|run| draw_before_card(run, shape, projector));
     }
 
     // Join those that touch, cut them at corners, and smooth them; samples lie on straight ways in the world between
