@@ -12,7 +12,8 @@ const SIZE: [u32; 2] = [360, 240];
 
 /// Nine blades side by side before a wall, in obj text; each 0.09 wide, bent and twisted.
 fn grass() -> Scene {
-    let mut text = "o wall\nusemtl wall\nv -9 -9 -2\nv 9 -9 -2\nv 9 9 -2\nv -9 9 -2\nf 1 2 3 4\no grass\nusemtl grass\n".to_owned();
+    let wall = "o wall\nusemtl wall\nv -9 -9 -2\nv 9 -9 -2\nv 9 9 -2\nv -9 9 -2\nf 1 2 3 4\n";
+    let mut text = format!("{wall}o grass\nusemtl grass\n");
     let mut first = 5;
     for number in 0..9 {
         let root = 0.24 * f64::from(number) - 0.96;

@@ -180,8 +180,8 @@ fn camera() -> Camera {
     }
 }
 
-/// A ball and a box that cut through each other on a floor of two materials, a beam, a sheet with a fold, and a blade of
-/// grass.
+/// A ball and a box that cut through each other on a floor of two materials, a beam, a sheet with a fold, and a blade
+/// of grass.
 fn scene() -> Scene {
     let mut scene = scene_of(&[
         Object::new("Ball", placed(&icosphere(2), [0.8; 3], [-0.7, 0.2, 0.0]))

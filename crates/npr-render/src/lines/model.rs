@@ -124,10 +124,9 @@ impl LineModel {
     }
 
     /// As [`LineModel::new`], without what a style makes beams of: light has no lines and hides none. Where the style
-    /// colours lines by textures, these are kept too, and the scene's images have to be there. Cards that the style draws
-    /// by their centres ([`CardLines::Centre`](npr_stylesheet::CardLines)) are so from here on, whatever style draws the
-    /// model later. With a `folder` what is
-    /// costly is kept there as by [`LineModel::cached`].
+    /// colours lines by textures, these are kept too, and the scene's images have to be there. Cards that the style
+    /// draws by their centres ([`CardLines::Centre`](npr_stylesheet::CardLines)) are so from here on, whatever style
+    /// draws the model later. With a `folder` what is costly is kept there as by [`LineModel::cached`].
     ///
     /// # Errors
     ///
