@@ -269,13 +269,13 @@ fn roof() -> npr_mesh::Mesh {
     npr_mesh::Mesh::new(rows.collect(), triangles.collect()).unwrap()
 }
 
-/// A blade of grass on the floor before the box.
+/// A blade of grass on the floor before the ball.
 fn blade() -> npr_mesh::Mesh {
     let rows = (0..6).flat_map(|row| {
         let t = row as f32 / 5.0;
         [-0.06, 0.06].map(|side| {
             [
-                0.55 + side * (1.0 - 0.8 * t),
+                side * (1.0 - 0.8 * t) - 1.0,
                 0.7 * t - 0.8,
                 1.1 + 0.2 * t * t,
             ]
