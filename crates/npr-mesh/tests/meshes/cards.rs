@@ -197,7 +197,7 @@ impl Made {
             triangle.rotate_left(random.below(3));
         }
         random.shuffle(&mut triangles);
-        Mesh::new(positions, triangles).unwrap()
+        Mesh::new(positions, triangles).expect("sound")
     }
 
     /// Greatest distance of a found line from the known one and back, in widths at the root, but for what lies within a
@@ -249,12 +249,13 @@ proptest! {
         if made.widths[1] < 0.8 * made.widths[0] {
             prop_assert!(points[0].place.length() < points[points.len() - 1].place.length());
         }
+        let known = made.bend.stations(101);
         for point in points {
-            let t = (0..=100).map(|i| f64::from(i) / 100.0).min_by(|a, b| {
-                let at = |t: &f64| made.bend.stations(101)[(t * 100.0).round() as usize].middle;
-                at(a).distance(point.place).total_cmp(&at(b).distance(point.place))
+            let nearest = (0..=100).min_by(|a: &usize, b: &usize| {
+                let off = |i: usize| known[i].middle.distance(point.place);
+                off(*a).total_cmp(&off(*b))
             });
-            let expected = made.width(t.unwrap());
+            let expected = made.width(nearest.expect("sound") as f64 / 100.0);
             let slack = (0.15 + 1.5 * made.noise) * made.widths[0];
             prop_assert!((point.width - expected).abs() < slack, "{} for {expected}", point.width);
             prop_assert!((point.across.length() - point.width).abs() < 1e-9);
@@ -288,7 +289,7 @@ proptest! {
         let positions = mesh.positions().iter().map(moved).collect();
         let mut triangles = mesh.triangles().to_vec();
         triangles.reverse();
-        let other = found(&Mesh::new(positions, triangles).unwrap());
+        let other = found(&Mesh::new(positions, triangles).expect("sound"));
         let plain = found(&mesh);
         prop_assert_eq!(other.len(), plain.len());
         let length = |card: &Card| {
@@ -311,7 +312,7 @@ fn squares(places: &[[u32; 2]]) -> Mesh {
         let [c, d] = [corner(*x, y + 1), corner(x + 1, y + 1)];
         [[a, b, d], [a, d, c]]
     });
-    Mesh::new(positions, triangles.collect()).unwrap()
+    Mesh::new(positions, triangles.collect()).expect("sound")
 }
 
 fn column(x: u32, from: u32, to: u32) -> Vec<[u32; 2]> {
@@ -380,7 +381,7 @@ fn a_band_that_closes_is_no_card() {
         [[a, c, d], [a, d, b]]
     });
     assert_eq!(
-        found(&Mesh::new(positions, triangles.collect()).unwrap()),
+        found(&Mesh::new(positions, triangles.collect()).expect("sound")),
         []
     );
 }
