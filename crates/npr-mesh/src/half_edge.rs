@@ -1,5 +1,6 @@
 //! A half-edge mesh: welded triangles of all objects, with the unique edges that lines run along.
 
+use crate::card_lines::CardLines;
 use glam::DVec3;
 use npr_core::crease::CreaseFrom;
 use npr_core::edge_flags::EdgeFlags;
@@ -44,6 +45,9 @@ pub struct HalfEdgeMesh {
     pub polylines: Vec<[u32; 2]>,
     /// Index of each polyline's [`Surface`].
     pub polyline_surfaces: Vec<u32>,
+    /// Which of the polylines are centre lines of cards; of none unless
+    /// [`draw_by_centre`](crate::card::draw_by_centre) made them.
+    pub cards: CardLines,
     /// What faces and polylines belong to.
     pub surfaces: Vec<Surface>,
 }
@@ -63,6 +67,8 @@ pub struct Surface {
     pub base_color: [f32; 4],
     /// The file asks for both sides to be drawn.
     pub double_sided: bool,
+    /// Its faces hide lines and have none: they are cards, for which centre lines stand.
+    pub is_lineless: bool,
 }
 
 impl HalfEdgeMesh {
@@ -90,6 +96,12 @@ impl HalfEdgeMesh {
                 .copied()
                 .unwrap_or(faces),
         }
+    }
+
+    /// Whether a face belongs to a surface without lines.
+    #[inline]
+    pub fn is_lineless(&self, face: u32) -> bool {
+        self.surfaces[self.face_surfaces[face as usize] as usize].is_lineless
     }
 
     /// Which polyline an edge number means; none for edges of faces.
@@ -269,6 +281,22 @@ impl HalfEdgeMesh {
             "surfaces of polylines exist",
             self.polylines.len(),
             |polyline| (self.polyline_surfaces[polyline] as usize) < self.surfaces.len(),
+        )?;
+        let (vertices, polylines) = (self.cards.vertices(), self.cards.polylines());
+        all("lines of cards are the last ones", 1, |_| {
+            self.cards.is_empty()
+                || vertices.end == self.positions.len() && polylines.end == self.polylines.len()
+        })?;
+        all(
+            "lines of cards run along points of theirs, and stand for faces",
+            self.cards.polylines().len(),
+            |index| {
+                let polyline = polylines.start + index;
+                let is_point = |end: &u32| self.cards.point(*end).is_some();
+                let faces = self.cards.faces(polyline);
+                let exist = faces.iter().all(|face| (*face as usize) < self.faces.len());
+                self.polylines[polyline].iter().all(is_point) && !faces.is_empty() && exist
+            },
         )
     }
 

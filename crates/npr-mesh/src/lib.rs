@@ -32,6 +32,8 @@
 //! Sources are cited by key, such as [Rusinkiewicz 2004]; `REFERENCES.md` of the project lists them.
 
 mod buckets;
+pub mod card;
+mod card_lines;
 pub mod classify;
 
 mod cluster;

@@ -1,6 +1,7 @@
 //! A scene as lines: strokes instead of pixels.
 
 mod assembly;
+mod cards;
 mod colors;
 mod expression;
 mod finder;

@@ -99,7 +99,7 @@ pub use ink::{Follow, Ink, Mapping, RuleHatch, RuleInk, StrokeSpace, Tone};
 pub use layers::{PARENTS_MAX, TEXT_BYTES_MAX};
 pub use lettering::{LETTERING_MAX, Lettering, LetteringOutline};
 pub use light::{ExtraLight, Light, LightShape, LightSpace};
-pub use line::{CREASE_ANGLE_DEG, CreaseFrom, Line, LineVisibility, OutlineMethod};
+pub use line::{CREASE_ANGLE_DEG, CardLines, CreaseFrom, Line, LineVisibility, OutlineMethod};
 pub use line_background::{
     BackgroundMethod, Direction, Likeness, LineBackground, LineScope, LineStart, Measure,
     RuleBackground, Subjects,

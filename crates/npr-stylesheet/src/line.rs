@@ -80,6 +80,17 @@ pub enum LineVisibility {
     Sampled,
 }
 
+/// How cards are drawn: long thin pieces that stand for a blade of grass or a lock of hair.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum CardLines {
+    /// As all surfaces are: by their outlines and folds.
+    #[default]
+    Outline,
+    /// Each by one line through its middle, as wide as the card looks. It has no other lines.
+    Centre,
+}
+
 style_table! {
 /// Which lines are drawn, and with what.
 pub struct Line {
@@ -114,6 +125,11 @@ pub struct Line {
     /// leaves lines side by side and short ones as they are. Dashes, overshoot, stamps, method `potrace`, layers and
     /// tiles need `exact`.
     pub visibility: LineVisibility = LineVisibility::default(),
+    /// How cards are drawn, pieces of hair and grass at least four times as long as wide; default `outline`. `centre`
+    /// draws each by one line, from its root to its tip, as wide as it looks but no thinner than the thinnest line of
+    /// the style; `width_factor` of a rule makes such lines finer. Of methods `strokes` and `potrace`, and of drawings
+    /// as curves.
+    pub cards: CardLines = CardLines::default(),
     /// Angle, in degrees, from which a stroke is cut where it turns sharply in the picture, 10..180; default 180,
     /// never. 60 draws a box in strokes along its sides, each with the brush's own ends. Of drawings as curves only.
     #[schemars(range(min = 10.0, max = 180.0))]

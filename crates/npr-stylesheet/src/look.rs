@@ -2,8 +2,8 @@
 
 use crate::overlay::Over;
 use crate::{
-    Beam, Color, Dash, Hand, Highlight, Ink, LineBackground, LineBrush, LinePaint, OutlineMethod,
-    PartNames, Rule, Stop, Style, Width,
+    Beam, CardLines, Color, Dash, Hand, Highlight, Ink, LineBackground, LineBrush, LinePaint,
+    OutlineMethod, PartNames, Rule, Stop, Style, Width,
 };
 
 /// The look of one part of the scene, with all rules applied.
@@ -13,6 +13,8 @@ pub struct Look<'a> {
     pub line_on: bool,
     /// How its outline is drawn.
     pub line_method: OutlineMethod,
+    /// How its cards are drawn.
+    pub line_cards: CardLines,
     /// Colour of its lines.
     pub line_color: Color,
     /// The other settings that decide their colour.
@@ -55,6 +57,7 @@ impl<'a> Look<'a> {
         Self {
             line_on: true,
             line_method: style.line.method,
+            line_cards: style.line.cards,
             line_color: style.line.color,
             line_paint: style.line.paint.clone(),
             width_factor: 1.0,
@@ -82,6 +85,7 @@ impl<'a> Look<'a> {
         Self {
             line_on: line.on.unwrap_or(self.line_on),
             line_method: line.method.unwrap_or(self.line_method),
+            line_cards: line.cards.unwrap_or(self.line_cards),
             line_color: line.color.unwrap_or(self.line_color),
             line_paint: line.paint.over(self.line_paint),
             width_factor: line.width_factor.unwrap_or(self.width_factor),

@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::ramp::Stop;
 use crate::{
-    Color, OutlineMethod, RuleBackground, RuleBeam, RuleDash, RuleHand, RuleHighlight, RuleInk,
-    RuleLineBrush, RuleMotion, RulePaint, RuleWidth, glob, id_map,
+    CardLines, Color, OutlineMethod, RuleBackground, RuleBeam, RuleDash, RuleHand, RuleHighlight,
+    RuleInk, RuleLineBrush, RuleMotion, RulePaint, RuleWidth, glob, id_map,
 };
 
 /// What a rule applies to: all patterns have to match.
@@ -44,6 +44,9 @@ pub struct RuleLine {
     /// How the part's outline is drawn: `strokes`, `shape`, `hull`, `angle`, `potrace` or `none`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub method: Option<OutlineMethod>,
+    /// How the part's cards are drawn: `outline`, or `centre`, which suits grass and hair.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cards: Option<CardLines>,
     /// Colour of the part's lines.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub color: Option<Color>,

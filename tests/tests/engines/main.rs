@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "tests fail by panicking")]
 
 mod backgrounds;
+mod cards;
 mod hulls_and_words;
 mod id_maps;
 mod kernels;

@@ -179,7 +179,8 @@ fn camera() -> Camera {
     }
 }
 
-/// A ball and a box that cut through each other on a floor of two materials, a beam, and a sheet with a fold.
+/// A ball and a box that cut through each other on a floor of two materials, a beam, a sheet with a fold, and a blade
+/// of grass.
 fn scene() -> Scene {
     let mut scene = scene_of(&[
         Object::new("Ball", placed(&icosphere(2), [0.8; 3], [-0.7, 0.2, 0.0]))
@@ -193,6 +194,7 @@ fn scene() -> Scene {
             .double_sided(),
         Object::new("Glow", boxed([0.9, -0.4, 0.6], [1.1, 1.2, 0.8])),
         Object::new("Roof", roof()).double_sided(),
+        Object::new("Blade", blade()).double_sided(),
     ]);
     // One object of two materials, whose border is a line.
     let trim = scene.meshes[3].parts.remove(0);
@@ -261,6 +263,28 @@ fn roof() -> npr_mesh::Mesh {
         [
             [corner, corner + 3, corner + 1],
             [corner + 1, corner + 3, corner + 4],
+        ]
+    });
+    npr_mesh::Mesh::new(rows.collect(), triangles.collect()).unwrap()
+}
+
+/// A blade of grass on the floor before the ball.
+fn blade() -> npr_mesh::Mesh {
+    let rows = (0..6).flat_map(|row| {
+        let t = row as f32 / 5.0;
+        [-0.06, 0.06].map(|side| {
+            [
+                side * (1.0 - 0.8 * t) - 1.0,
+                0.7 * t - 0.8,
+                1.1 + 0.2 * t * t,
+            ]
+        })
+    });
+    let corners = (0..5).map(|row| 2 * row);
+    let triangles = corners.flat_map(|corner| {
+        [
+            [corner, corner + 1, corner + 2],
+            [corner + 2, corner + 1, corner + 3],
         ]
     });
     npr_mesh::Mesh::new(rows.collect(), triangles.collect()).unwrap()

@@ -4,7 +4,7 @@ use anyhow::Result;
 use glam::{Mat3, Quat, Vec2, Vec3};
 use serde_json::{Map, Value, json};
 
-use super::scene::{Object, Scene, looking_along};
+use super::scene::{Material, Object, Scene, looking_along};
 use super::smooth::{SmoothMesh, smoothed};
 
 /// Metres per centimetre: files are in metres, models here in centimetres.
@@ -221,20 +221,21 @@ fn camera(scene: &Scene) -> Value {
 
 /// The materials: rough, without metal.
 fn materials(scene: &Scene) -> Vec<Value> {
-    let material = |name, [r, g, b]: [f32; 3]| {
-        json!({
-            "name": name,
+    let material = |material: &Material| {
+        let [r, g, b] = material.color;
+        let mut written = json!({
+            "name": material.name,
             "pbrMetallicRoughness": {
                 "baseColorFactor": numbers([r, g, b, 1.0]),
                 "metallicFactor": 0.0, "roughnessFactor": 0.9,
             },
-        })
+        });
+        if material.double_sided {
+            written["doubleSided"] = json!(true);
+        }
+        written
     };
-    scene
-        .materials
-        .iter()
-        .map(|m| material(m.name, m.color))
-        .collect()
+    scene.materials.iter().map(material).collect()
 }
 
 /// Header, JSON chunk padded with spaces, binary chunk padded with zeros.

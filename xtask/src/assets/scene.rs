@@ -12,6 +12,8 @@ pub struct Material {
     pub name: &'static str,
     /// Base colour as linear light.
     pub color: [f32; 3],
+    /// Its backs are seen too, as of open strips.
+    pub double_sided: bool,
 }
 
 /// A named shape and where it stands.
@@ -69,8 +71,19 @@ impl Scene {
         let [_, r, g, b] = srgb.to_be_bytes().map(|byte| f32::from(byte) / 255.0);
         // Four digits say more than eight bits did, and keep the file readable.
         let color = [r, g, b].map(|v| (color::linear_from_srgb(v) * 1e4).round() / 1e4);
-        self.materials.push(Material { name, color });
+        self.materials.push(Material {
+            name,
+            color,
+            double_sided: false,
+        });
         Paint(self.materials.len() - 1)
+    }
+
+    /// The same for faces that are seen from both sides.
+    pub fn double_sided_material(&mut self, name: &'static str, srgb: u32) -> Paint {
+        let paint = self.material(name, srgb);
+        self.materials[paint.0].double_sided = true;
+        paint
     }
 
     /// Adds an object at `place`, turned about the y axis by `degrees`.

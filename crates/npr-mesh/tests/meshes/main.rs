@@ -1,5 +1,6 @@
 //! Meshes prepared: generated, random, hostile and real ones.
 
+mod cards;
 mod shape;
 mod suzanne;
 mod threads;

@@ -176,6 +176,7 @@ impl Assembly {
             material_name: info.material_name.clone(),
             base_color: info.base_color,
             double_sided: info.double_sided,
+            is_lineless: false,
         });
         surfaces.collect()
     }

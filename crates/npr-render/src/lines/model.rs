@@ -67,27 +67,27 @@ const POINT_LIMIT: u64 = 20_000_000;
 /// [`npr_vector::mesh_lines::polyline::TOUCH_SHARE`]).
 #[derive(Debug)]
 pub struct LineModel {
-    shape: HalfEdgeMesh,
-    parts: Vec<PartInfo>,
+    pub(super) shape: HalfEdgeMesh,
+    pub(super) parts: Vec<PartInfo>,
     /// Colour of every vertex of the shape; empty where the scene has no colours.
-    colors: Vec<u32>,
+    pub(super) colors: Vec<u32>,
     points: Vec<[f32; 3]>,
     bounds: Bounds,
     cameras: Vec<(String, Camera)>,
     /// The lights of the file, for smoke.
     lights: Vec<FileLight>,
     smoke: Option<Smoke>,
-    notices: Vec<String>,
+    pub(super) notices: Vec<String>,
     triangle_count: usize,
     /// Most bytes that a drawing may take.
-    memory_limit: u64,
+    pub(super) memory_limit: u64,
     /// Where what is costly to prepare is kept.
     cache: Cache,
     /// What was prepared last, for views to come.
     prepared: Mutex<Option<(PreparedKey, Arc<Prepared>)>>,
     bends: OnceLock<ShapeBends>,
     /// Where textures lie, for lines that take their colour from there.
-    map: Option<TextureMap>,
+    pub(super) map: Option<TextureMap>,
     /// Pictures of styles, by name.
     pictures: BTreeMap<String, Picture>,
 }
@@ -124,8 +124,9 @@ impl LineModel {
     }
 
     /// As [`LineModel::new`], without what a style makes beams of: light has no lines and hides none. Where the style
-    /// colours lines by textures, these are kept too, and the scene's images have to be there. With a `folder` what is
-    /// costly is kept there as by [`LineModel::cached`].
+    /// colours lines by textures, these are kept too, and the scene's images have to be there. Cards that the style
+    /// draws by their centres ([`CardLines::Centre`](npr_stylesheet::CardLines)) are so from here on, whatever style
+    /// draws the model later. With a `folder` what is costly is kept there as by [`LineModel::cached`].
     ///
     /// # Errors
     ///
@@ -143,6 +144,7 @@ impl LineModel {
             model.notices.extend(map.notice.take());
             model.map = Some(map);
         }
+        model.draw_cards(style)?;
         Ok(model)
     }
 
@@ -390,7 +392,8 @@ impl LineModel {
             changes: stroke_contrast.is_some(),
             is_open,
         };
-        let paint = Paint::new(&self.parts, style, has_lines);
+        let surfaces = &self.shape.surfaces;
+        let paint = Paint::new((&self.parts, surfaces), style, has_lines);
         let ViewStrokes {
             mut strokes,
             left_out,
@@ -536,6 +539,7 @@ impl LineModel {
             bends: bends(),
             colors: &self.colors,
             style,
+            projector: view.projector,
         };
         let of_frame = view.camera.view(options.size, self.bounds);
         let outline = look::outline(style, radius, options.size[1], options.dpi, 0);

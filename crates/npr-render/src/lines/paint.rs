@@ -6,7 +6,7 @@ use crate::look;
 use crate::part_info::PartInfo;
 use npr_core::color::srgb_from_linear;
 use npr_drawing::fill;
-use npr_mesh::half_edge::HalfEdgeMesh;
+use npr_mesh::half_edge::{HalfEdgeMesh, Surface};
 use npr_stylesheet::{Look, Style};
 use npr_vector::mesh_lines::bvh::{FaceTree, Sight};
 use npr_vector::project::Projector;
@@ -27,21 +27,29 @@ struct SurfacePaint {
 }
 
 impl Paint {
-    /// Resolves the style for every part; only parts for whose look `has_lines` is true have lines.
-    pub fn new(parts: &[PartInfo], style: &Style, has_lines: impl Fn(&Look<'_>) -> bool) -> Self {
-        let paint = |info: &PartInfo| {
+    /// Resolves the style for every part; only parts for whose look `has_lines` is true have lines, and no surfaces of
+    /// cards, for which others stand.
+    pub fn new(
+        (parts, surfaces): (&[PartInfo], &[Surface]),
+        style: &Style,
+        has_lines: impl Fn(&Look<'_>) -> bool,
+    ) -> Self {
+        let paint = |(info, surface): (&PartInfo, &Surface)| {
             let part = look::part(info, style);
             let look = info.look(style);
             let [r, g, b] = [0, 1, 2].map(|i| srgb_from_linear(part.base_color[i]));
             SurfacePaint {
-                has_lines: look.line_on && look.beam.is_none() && has_lines(&look),
+                has_lines: !surface.is_lineless
+                    && look.line_on
+                    && look.beam.is_none()
+                    && has_lines(&look),
                 width_factor: f64::from(part.width_factor),
                 line_color: bytes_of(part.line_color),
                 fill_color: bytes_of([r, g, b, 1.0]),
             }
         };
         Self {
-            surfaces: parts.iter().map(paint).collect(),
+            surfaces: parts.iter().zip(surfaces).map(paint).collect(),
         }
     }
 

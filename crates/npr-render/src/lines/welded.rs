@@ -14,7 +14,7 @@ use npr_scene::Scene;
 const BYTES_PER_TRIANGLE: usize = 260;
 
 /// Bytes of a line segment: with its links in a shape, and with its visible parts in a view.
-const BYTES_PER_POLYLINE: usize = 320;
+pub(super) const BYTES_PER_POLYLINE: usize = 320;
 
 /// Bytes of a stored vertex: where it rests, where it stands, and its place in the shape.
 const BYTES_PER_VERTEX: usize = 48;

@@ -3,15 +3,18 @@
 use crate::bend::bends;
 use crate::kept::Cache;
 use crate::look;
+use glam::DVec3;
 use npr_core::geometry::{Influence, NONE, Part, Vertex};
 use npr_core::outline::{Outline, width_of_curvature};
 use npr_core::window::View;
+use npr_mesh::card::CardPoint;
 use npr_mesh::curvature::bend::{Bend, WeldedMesh};
 use npr_mesh::curvature::tightest;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_mesh::pose::{Matrix, Pose, pose_vertex};
 use npr_mesh::{Edge, EdgeFlags, Weld};
 use npr_stylesheet::{Style, WidthSource};
+use npr_vector::project::Projector;
 
 const IDENTITY: Matrix = [
     [1.0, 0.0, 0.0, 0.0],
@@ -93,6 +96,7 @@ pub(crate) struct WidthInput<'a> {
     /// Colour of every vertex, where the model has any.
     pub colors: &'a [u32],
     pub style: &'a Style,
+    pub projector: &'a Projector,
 }
 
 /// Whether a style's widths follow how the surface bends.
@@ -135,6 +139,38 @@ impl<'a> Widths<'a> {
 
     /// Whole width of lines at a vertex, in pixels, before the factor of the surface.
     pub fn at(&self, vertex: u32) -> f32 {
+        let width = match self.input.shape.cards.point(vertex) {
+            Some(point) => self.of_card(point),
+            None => self.of_surface(vertex),
+        };
+        if width.is_finite() { width } else { 0.0 }
+    }
+
+    /// As wide as a card looks, and never thinner than the thinnest line of the style.
+    fn of_card(&self, point: &CardPoint) -> f32 {
+        let projector = self.input.projector;
+        let px = projector.pixels_per_unit(projector.depth(point.place).max(projector.near()));
+        let factor = match self.input.style.line.width.source {
+            WidthSource::Constant | WidthSource::Texture => self.outline.max_factor,
+            _ => self.outline.min_factor,
+        };
+        let least = f64::from(self.outline.base_width * factor);
+        let least_px = match self.outline.flags & Outline::WORLD_WIDTH {
+            0 => least,
+            _ => least * px,
+        };
+
+        // What of it lies along the way from the eye is not seen, nor what lies along the line.
+        let way = point.place - projector.sight_start(point.place);
+        let aside = way.cross(point.along).normalize_or_zero();
+        let seen = match point.across == DVec3::ZERO || aside == DVec3::ZERO {
+            true => point.width,
+            false => point.across.dot(aside).abs(),
+        };
+        (seen * px).max(least_px) as f32
+    }
+
+    fn of_surface(&self, vertex: u32) -> f32 {
         // Store the vertex as pictures have it.
         let i = vertex as usize;
         let is_bare = self.input.bends.is_some_and(|measured| measured.is_bare[i]);
@@ -165,8 +201,7 @@ impl<'a> Widths<'a> {
             joints: [0; 4],
             weights: [1.0, 0.0, 0.0, 0.0],
         };
-        let width = 2.0 * pose_vertex(&with, &stored, &rigid).half_width;
-        if width.is_finite() { width } else { 0.0 }
+        2.0 * pose_vertex(&with, &stored, &rigid).half_width
     }
 
     /// The width factor 0..1 that the style's source gives a vertex, 1 where the source is missing; for projected

@@ -4,6 +4,7 @@
 
 mod background_contrast;
 mod cache;
+mod cards;
 mod colors;
 mod creases;
 mod image;

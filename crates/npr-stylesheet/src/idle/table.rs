@@ -403,6 +403,7 @@ pub(super) const ENTRIES: &[Entry] = &[
         |c| !c.is_drawn_by(&[Strokes, Potrace]),
     ),
     of_methods(&["line.brush"], |c| !c.is_drawn_by(&[Strokes, Potrace])),
+    of_methods(&["line.cards"], |c| !c.is_drawn_by(&[Strokes, Potrace])),
     of_methods(&["line.visibility"], |c| !c.is_drawn_by(&[Strokes])),
     of_methods(&["detect.scale"], |c| {
         !c.is_drawn_by(&[Shape, Okuya, Filter, FilterHull, Edges])

@@ -237,10 +237,26 @@ impl Maker<'_> {
                 .min()
                 .unwrap_or(0),
             closed,
-            cut: [false; 2],
+            cut: [(&items[0], 0.0), (&items[items.len() - 1], 1.0)].map(|end| self.ends_card(end)),
             weight: 1.0,
             points,
         }
+    }
+
+    /// Whether the start or the end of an item is the root or the tip of a card: nothing is joined there.
+    fn ends_card(&self, (item, end): (&Item<'_>, f64)) -> bool {
+        if self.shape.cards.is_empty() {
+            return false;
+        }
+        let (piece, span) = (&item.line.piece, &item.span);
+        let [at, bound] = match end {
+            0.0 => [span.from, piece.range[0]],
+            _ => [span.to, piece.range[1]],
+        };
+        let node = &self.graph.nodes[item.node as usize];
+        let [low, high] = self.shape.ends(node.edge);
+        let is_low = (node.t < 0.5) == (end == 0.0);
+        at == end && bound == end && self.shape.cards.is_end(if is_low { low } else { high })
     }
 
     /// A mesh edge to hang an identity on: the one with the least hash, which most small changes leave in the run.

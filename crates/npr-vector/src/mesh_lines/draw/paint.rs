@@ -88,13 +88,35 @@ pub(super) fn painted(
     if look.paint_at.is_some() {
         runs = broken_up(runs, PAINT_STEP_PX, lens);
     }
+    let is_of_card: Vec<bool> = runs.iter().map(|run| is_of_card(shape, run)).collect();
     let mut strokes = strokes_of(runs, &|run: &Run, point: &RunPoint| {
         look.paint(shape, run, point)
     });
+    let mut is_of_card = is_of_card.into_iter();
+    strokes.retain(|stroke| !(is_of_card.next() == Some(true) && is_blot(stroke)));
     if look.is_lit {
         strokes.par_iter_mut().for_each(even_out);
     }
     strokes
+}
+
+/// Whether a run is part of a card's line.
+fn is_of_card(shape: &HalfEdgeMesh, run: &Run) -> bool {
+    let polyline = run
+        .points
+        .first()
+        .and_then(|point| shape.polyline_of(point.edge));
+    polyline.is_some_and(|polyline| shape.cards.polylines().contains(&polyline))
+}
+
+/// Whether a stroke is wider than long: of a blade so little shows that it is no line.
+fn is_blot(stroke: &Stroke) -> bool {
+    let widest = stroke
+        .points
+        .iter()
+        .map(|point| point.width)
+        .fold(0.0, f64::max);
+    stroke.length() < widest
 }
 
 /// Runs as strokes, in their order; `paint_at` gives colour and whole width in pixels at a point of a run.

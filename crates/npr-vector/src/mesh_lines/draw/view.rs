@@ -340,9 +340,24 @@ impl View<'_> {
     /// The kind that the piece after a node is drawn as; `None` where it is not wanted, and for concave edges whose
     /// backs nobody sees.
     pub(super) fn drawn_kind(&self, node: &CurveNode, wanted: u32) -> Option<Kind> {
+        if self.is_of_card(node) {
+            return None;
+        }
         let kind = Kind::first_of(self.kinds_of(node) & wanted)?;
         let concave = EdgeFlags::CONCAVE.is_in(node.flags);
         (!concave || self.prepared.may_show_backs(self.shape, node.face)).then_some(kind)
+    }
+
+    /// Whether a line belongs to a card that is drawn by its centre, or is where one cuts through something.
+    fn is_of_card(&self, node: &CurveNode) -> bool {
+        if self.shape.cards.is_empty() || self.shape.polyline_of(node.edge).is_some() {
+            return false;
+        }
+        let cuts = node.flags & KindSet::INTERSECTION != 0;
+        let sides = self.shape.sides(node.edge);
+        let others = sides.iter().map(|side| side / 3).filter(|_| cuts);
+        let mut faces = others.chain([node.face]);
+        faces.any(|face| face != NONE && self.shape.is_lineless(face))
     }
 
     /// The line after a node, on its surface.
@@ -461,7 +476,7 @@ impl View<'_> {
         let line = |(node, (piece, spans)): (&CurveNode, (&Option<Piece>, Vec<Span>))| {
             let piece = (*piece)?;
             let surface = self.shape.face_surfaces[node.face as usize];
-            (!spans.is_empty()).then_some(Line {
+            (!spans.is_empty() && !self.is_of_card(node)).then_some(Line {
                 kind: Kind::Contour,
                 surface,
                 piece,
@@ -489,16 +504,17 @@ impl View<'_> {
     pub(super) fn surroundings(&self, node: &CurveNode, other: &CurveNode) -> Circumstances {
         // Along an edge, a line lies in the faces beside it, which do not hide it.
         let beside = |edge: u32| self.shape.sides(edge).iter().map(|side| side / 3);
-        if node.is_along_edge() {
-            let is_polyline = self.shape.polyline_of(node.edge).is_some();
+        if let Some(polyline) = self.shape.polyline_of(node.edge) {
             return Circumstances {
                 piercings: Vec::new(),
+                own_faces: self.shape.cards.faces(polyline).to_vec(),
+                touch: self.prepared.touch,
+            };
+        }
+        if node.is_along_edge() {
+            return Circumstances {
                 own_faces: beside(node.edge).collect(),
-                touch: if is_polyline {
-                    self.prepared.touch
-                } else {
-                    0.0
-                },
+                ..Circumstances::default()
             };
         }
 
