@@ -69,6 +69,8 @@ pub struct Surface {
     pub double_sided: bool,
     /// Its faces hide lines and have none: they are cards, for which centre lines stand.
     pub is_lineless: bool,
+    /// It is part of a mass, with all such surfaces of its material: only where the image of that ends it has lines.
+    pub is_mass: bool,
 }
 
 impl HalfEdgeMesh {

@@ -89,6 +89,8 @@ pub enum CardLines {
     Outline,
     /// Each by one line through its middle, as wide as the card looks. It has no other lines.
     Centre,
+    /// All of one material as one mass, whatever it is made of: by lines where its image ends, and none within.
+    Tuft,
 }
 
 style_table! {
@@ -118,7 +120,7 @@ pub struct Line {
     /// draws all, 20 leaves out stubs, 100 all but long folds. Of methods `strokes` and `potrace`, and of drawings as
     /// curves.
     pub crease_least: Length = Length::ref_px(48.0),
-    /// The same of lines of all kinds; default 24. 0 draws all, 12 clears scans of most shreds, 40 costs faces their
+    /// The same of lines of all kinds but marked ones, which are meant; default 24. 0 draws all, 12 clears scans of most shreds, 40 costs faces their
     /// small lines.
     pub least: Length = Length::ref_px(24.0),
     /// How it is found what is seen of strokes; default `exact`. `sampled` lets a device find it by itself, and
@@ -127,8 +129,8 @@ pub struct Line {
     pub visibility: LineVisibility = LineVisibility::default(),
     /// How cards are drawn, pieces of hair and grass at least four times as long as wide; default `outline`. `centre`
     /// draws each by one line, from its root to its tip, as wide as it looks but no thinner than the thinnest line of
-    /// the style; `width_factor` of a rule makes such lines finer. Of methods `strokes` and `potrace`, and of drawings
-    /// as curves.
+    /// the style; `width_factor` of a rule makes such lines finer. `tuft` draws the outline of all of them together. Of
+    /// methods `strokes` and `potrace`, and of drawings as curves; `tuft` not of those that find lines on pixels.
     pub cards: CardLines = CardLines::default(),
     /// Angle, in degrees, from which a stroke is cut where it turns sharply in the picture, 10..180; default 180,
     /// never. 60 draws a box in strokes along its sides, each with the brush's own ends. Of drawings as curves only.

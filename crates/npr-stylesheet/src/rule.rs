@@ -44,7 +44,7 @@ pub struct RuleLine {
     /// How the part's outline is drawn: `strokes`, `shape`, `hull`, `angle`, `potrace` or `none`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub method: Option<OutlineMethod>,
-    /// How the part's cards are drawn: `outline`, or `centre`, which suits grass and hair.
+    /// How the part's cards are drawn: `outline`, `centre`, which suits grass and hair, or `tuft`, their outline alone.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cards: Option<CardLines>,
     /// Colour of the part's lines.

@@ -5,8 +5,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::overlay::Over;
 use crate::{
-    Antialias, Background, BackgroundMethod, Blend, Detect, Highlight, IdMap, Ink, Lettering,
-    Light, Line, LineSource, Motion, OutlineMethod, Paper, Parents, Rule, Shade, SmokeStyle,
+    Antialias, Background, BackgroundMethod, Blend, CardLines, Detect, Highlight, IdMap, Ink,
+    Lettering, Light, Line, LineSource, Motion, OutlineMethod, Paper, Parents, Rule, Shade,
+    SmokeStyle,
 };
 
 /// What a picture should look like.
@@ -112,6 +113,13 @@ impl Style {
             }
         }
         has_strokes.then_some(style)
+    }
+
+    /// Whether any part may be drawn as a tuft.
+    pub fn has_tufts(&self) -> bool {
+        let rules = self.rule.iter().filter_map(|rule| rule.line.cards);
+        let mut all = rules.chain([self.line.cards]);
+        all.any(|cards| cards == CardLines::Tuft)
     }
 
     /// The line sources of the parts whose lines may be drawn as curves, each once.

@@ -79,6 +79,7 @@ pub(crate) fn sample_room(
             "method potrace",
         ),
         (manners.all.len() > PartWidths::MOST, "many manners"),
+        (style.has_tufts(), "tufts"),
         (options.layers, "layers"),
         (is_tiled, "tiles"),
     ];

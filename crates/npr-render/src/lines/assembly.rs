@@ -177,6 +177,7 @@ impl Assembly {
             base_color: info.base_color,
             double_sided: info.double_sided,
             is_lineless: false,
+            is_mass: false,
         });
         surfaces.collect()
     }

@@ -8,12 +8,17 @@ use npr_mesh::card::{LEAST_RATIO, cards, draw_by_centre};
 use npr_stylesheet::{CardLines, Style};
 
 impl LineModel {
-    /// Draws the cards of the parts for which the style asks for it by their centre lines from now on.
+    /// Draws the cards of the parts for which the style asks for it by their centre lines from now on, or as one mass.
     ///
     /// # Errors
     ///
     /// [`RenderError`] where there is no room for their lines.
     pub(super) fn draw_cards(&mut self, style: &Style) -> Result<(), RenderError> {
+        // Note the surfaces of masses.
+        for (surface, info) in self.shape.surfaces.iter_mut().zip(&self.parts) {
+            surface.is_mass = info.look(style).line_cards == CardLines::Tuft;
+        }
+
         // Find the cards.
         let asks: Vec<bool> = self
             .parts

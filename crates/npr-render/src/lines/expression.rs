@@ -213,6 +213,8 @@ impl Expression {
         let is_drawn = |stroke: &Stroke| of(stroke).is_some();
         let [of_creases, of_others] = self.least_px;
         let least_px = |stroke: &Stroke| match stroke.kind {
+            // What is drawn as a line in the file, and a blade of grass, is meant, however short.
+            Kind::Marked => 0.0,
             _ if !is_drawn(stroke) => 0.0,
             Kind::Crease => of_creases,
             _ => of_others,

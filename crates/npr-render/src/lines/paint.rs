@@ -8,7 +8,7 @@ use npr_core::color::srgb_from_linear;
 use npr_drawing::fill;
 use npr_mesh::half_edge::{HalfEdgeMesh, Surface};
 use npr_stylesheet::{Look, Style};
-use npr_vector::mesh_lines::bvh::{FaceTree, Sight};
+use npr_vector::mesh_lines::bvh::FaceTree;
 use npr_vector::project::Projector;
 use npr_vector::stroke::{Region, Stroke, StrokeSurface};
 
@@ -108,7 +108,7 @@ pub(super) fn regions(
 ) -> Result<Vec<Region>, RenderError> {
     // Tell which surface a place of the picture shows, smoke where it lies before the others.
     let face_at = |place: [f64; 2]| {
-        let (face, depth) = face_at(shape, tree, projector, place)?;
+        let (face, depth) = tree.face_at(shape, projector, place)?;
         Some((shape.face_surfaces[face as usize], depth))
     };
     let surface_at = |place: [f64; 2]| {
@@ -126,24 +126,6 @@ pub(super) fn regions(
         segments.extend(smoke.seams(size, &depth_at));
     }
     Ok(fill::regions(size, &segments, &surface_at)?)
-}
-
-/// The face that shows at a place of the picture, and its depth.
-pub(super) fn face_at(
-    shape: &HalfEdgeMesh,
-    tree: &FaceTree,
-    projector: &Projector,
-    place: [f64; 2],
-) -> Option<(u32, f64)> {
-    let point = projector.unproject(place, projector.far());
-    let start = projector.sight_start(point);
-    let sight = Sight {
-        eye: start.to_array(),
-        point: point.to_array(),
-        touch: 0.0,
-    };
-    let (face, share) = tree.first_face(shape, &sight, 1.0)?;
-    Some((face, projector.depth(start.lerp(point, share))))
 }
 
 /// The pieces of all visible strokes.

@@ -4,7 +4,6 @@
 //! picture without lines a little beside them: what is of the line's own subject is its rim, what is not lies behind
 //! it.
 
-use super::paint::face_at;
 use crate::features::background_contrast::BackgroundContrast;
 use crate::features::line_features::LineFeatures;
 use crate::frame::Frame;
@@ -175,7 +174,7 @@ impl<'a> StrokeContrast<'a> {
         }
         let texel = 4 * (y as usize * width as usize + x as usize);
         let bytes = self.picture.rgba.get(texel..texel + 4)?;
-        let face = face_at(self.shape, self.tree, self.projector, place);
+        let face = self.tree.face_at(self.shape, self.projector, place);
         let surface = face.map(|(face, _)| self.shape.face_surfaces[face as usize]);
         let part_subject = surface.and_then(|surface| self.part_subjects.get(surface as usize));
         Some(Ground {

@@ -5,6 +5,7 @@ use npr_mesh::testing::cylinder;
 use npr_render::{Drawing, Kind, LineModel, LineModelOptions, LineOptions, LineSource, Subject};
 use npr_scene::Scene;
 use npr_stylesheet::Style;
+use npr_vector::mesh_lines::bvh::FaceTree;
 use npr_vector::project::Projector;
 use npr_vector::stroke::Stroke;
 
@@ -239,4 +240,70 @@ fn it_is_told_where_there_are_no_cards() {
     let subject = Subject::new(&scene, &centres()).expect("small");
     let notices = subject.lines.expect("lines").notices().join("; ");
     assert!(notices.contains("line.cards is centre"), "{notices}");
+}
+
+/// A tuft is drawn where its image ends: beside every line that it has, the mass shows on one side alone.
+#[test]
+fn a_tuft_has_its_outline_alone() {
+    // From the side the blades stand before each other.
+    let eye = [-6.0, 0.4, 0.4];
+    let scene = tuft();
+    let style = |cards: &str| {
+        let rule = format!("[[rule]]\nmatch.material = 'grass'\nline.cards = '{cards}'\n");
+        let text = Style::from_toml(&rule, &|_| Err(String::new())).expect("a rule");
+        Style {
+            rule: text.rule,
+            ..even_style("2px")
+        }
+    };
+    for method in [LineSource::Edges, LineSource::Surface] {
+        let options = LineOptions {
+            method,
+            smooth: false,
+            ..LineOptions::new(SIZE)
+        };
+        let [blades, mass] =
+            ["outline", "tuft"].map(|cards| draw(&scene, &style(cards), eye, &options));
+        let length = |drawing: &Drawing| -> f64 {
+            let all = grass(drawing).into_iter();
+            all.map(Stroke::length).sum()
+        };
+        assert!(length(&mass) > 40.0, "{method:?}: {} px", length(&mass));
+        assert!(length(&mass) < 0.8 * length(&blades), "{method:?}");
+
+        // Where it has lines it has those that blades have by themselves.
+        let model =
+            LineModel::for_style(&scene, &style("tuft"), &LineModelOptions::default(), None)
+                .expect("small");
+        let shape = model.shape();
+        let tree = FaceTree::new(shape);
+        let projector = Projector::new(&camera_at(eye), SIZE, model.bounds());
+        let shows = |place: [f64; 2]| {
+            let found = tree.face_at(shape, &projector, place);
+            found.is_some_and(|(face, _)| {
+                let surface = shape.face_surfaces[face as usize] as usize;
+                shape.surfaces[surface].material_name == "grass"
+            })
+        };
+        for stroke in grass(&mass) {
+            for pair in stroke.points.windows(2) {
+                let [from, to] = [pair[0].position, pair[1].position];
+                let along = [0, 1].map(|i| to[i] - from[i]);
+                let length = along[0].hypot(along[1]);
+                if length < 2.0 {
+                    continue;
+                }
+                let middle = [0, 1].map(|i| 0.5 * (from[i] + to[i]));
+                let beside = |px: f64| {
+                    let across = [-along[1] / length, along[0] / length];
+                    shows([0, 1].map(|i| middle[i] + px * across[i]))
+                };
+                let sides = [1.0, -1.0].map(|side| [1.5, 3.0].iter().any(|px| beside(side * px)));
+                assert!(
+                    sides != [true; 2],
+                    "{method:?}: a line within the tuft at {middle:?}"
+                );
+            }
+        }
+    }
 }

@@ -118,6 +118,14 @@ impl<'a> Case<'a> {
         self.lines().is_some_and(|lines| lines.source == source)
     }
 
+    /// Whether lines are found on pixels alone.
+    pub fn traces_pixels(&self) -> bool {
+        match self.lines() {
+            Some(lines) => lines.source.is_of_pixels(),
+            None => !self.is_drawn_by(&[OutlineMethod::Strokes]),
+        }
+    }
+
     /// Whether the output is a drawing of lines in the form `form`.
     pub fn is_written_as(&self, form: LineForm) -> bool {
         self.lines().is_some_and(|lines| lines.form == form)

@@ -6,8 +6,9 @@ use crate::OutlineMethod::{
 };
 use crate::Pattern;
 use crate::{
-    BackgroundMethod, BrushMapping, Edge, Follow, HighlightModel, LineColorSource, LineStart,
-    Mapping, Measure, ShadeMode, SmokeLines, SmokeMethod, SmokeParticles, Tone, WidthSource,
+    BackgroundMethod, BrushMapping, CardLines, Edge, Follow, HighlightModel, LineColorSource,
+    LineStart, Mapping, Measure, ShadeMode, SmokeLines, SmokeMethod, SmokeParticles, Tone,
+    WidthSource,
 };
 use npr_core::geometry::Part;
 use npr_core::line_source::LineSource;
@@ -404,6 +405,11 @@ pub(super) const ENTRIES: &[Entry] = &[
     ),
     of_methods(&["line.brush"], |c| !c.is_drawn_by(&[Strokes, Potrace])),
     of_methods(&["line.cards"], |c| !c.is_drawn_by(&[Strokes, Potrace])),
+    entry(
+        &["line.cards"],
+        |c| c.traces_pixels() && !c.any(|look| look.line_cards == CardLines::Centre),
+        "lines that are found on pixels go around all of a tuft's blades",
+    ),
     of_methods(&["line.visibility"], |c| !c.is_drawn_by(&[Strokes])),
     of_methods(&["detect.scale"], |c| {
         !c.is_drawn_by(&[Shape, Okuya, Filter, FilterHull, Edges])

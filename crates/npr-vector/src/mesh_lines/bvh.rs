@@ -1,5 +1,6 @@
 //! The faces of a shape in a bounding volume hierarchy, and how many of them hide a point.
 
+use crate::project::Projector;
 use glam::{DVec3, Vec4};
 use npr_mesh::half_edge::HalfEdgeMesh;
 use obvhs::Boundable;
@@ -183,6 +184,24 @@ impl FaceTree {
             });
         }
         found
+    }
+
+    /// The face that shows at a place of the picture, and its depth.
+    pub fn face_at(
+        &self,
+        shape: &HalfEdgeMesh,
+        projector: &Projector,
+        place: [f64; 2],
+    ) -> Option<(u32, f64)> {
+        let point = projector.unproject(place, projector.far());
+        let start = projector.sight_start(point);
+        let sight = Sight {
+            eye: start.to_array(),
+            point: point.to_array(),
+            touch: 0.0,
+        };
+        let (face, share) = self.first_face(shape, &sight, 1.0)?;
+        Some((face, projector.depth(start.lerp(point, share))))
     }
 
     /// The first face on the way from the eye through a point and beyond, with the place on the way: 1 at the point.

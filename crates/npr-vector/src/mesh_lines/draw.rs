@@ -5,6 +5,7 @@
 
 mod calm;
 mod even_paint;
+mod masses;
 mod paint;
 mod prepared;
 mod spines;

@@ -1,5 +1,6 @@
 //! The pieces of all lines in one view of a shape, and their visible parts.
 
+use super::masses::leave_out_within;
 use super::prepared::Prepared;
 use super::stretches;
 use crate::mesh_lines::bvh::NEAR_SHARE;
@@ -222,6 +223,7 @@ impl View<'_> {
         // Look at crowded pieces by the ink on the paper.
         toll.take_spans(lines.iter().flatten().map(|line| line.spans.len()).sum())?;
         self.add_crowded(graph, seen, &mut lines, toll)?;
+        leave_out_within(self, &mut lines);
         Ok(lines)
     }
 
