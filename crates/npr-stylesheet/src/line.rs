@@ -120,8 +120,8 @@ pub struct Line {
     /// draws all, 20 leaves out stubs, 100 all but long folds. Of methods `strokes` and `potrace`, and of drawings as
     /// curves.
     pub crease_least: Length = Length::ref_px(48.0),
-    /// The same of lines of all kinds but marked ones, which are meant; default 24. 0 draws all, 12 clears scans of most shreds, 40 costs faces their
-    /// small lines.
+    /// The same of lines of all kinds but marked ones, which are meant; default 24. 0 draws all, 12 clears scans of
+    /// most shreds, 40 costs faces their small lines.
     pub least: Length = Length::ref_px(24.0),
     /// How it is found what is seen of strokes; default `exact`. `sampled` lets a device find it by itself, and
     /// leaves lines side by side and short ones as they are. Dashes, overshoot, stamps, method `potrace`, layers and
