@@ -68,15 +68,17 @@ impl Dash {
 
     /// Most points that a stroke has once [`cut_to_dashes`] has cut it.
     fn points_of(&self, stroke: &Stroke) -> u64 {
-        let (own, length) = (stroke.points.len() as u64, stroke.length());
-        match self.period() {
-            // Stretched patterns are shorter by a third at most.
-            Some((pairs, period)) if stroke.is_visible() && has_course(length) => {
-                let periods = (1.5 * length / period) as u64 + 2;
-                own + periods * 2 * pairs.len() as u64
-            }
-            _ => own,
+        let own = stroke.points.len() as u64;
+        let Some((pairs, period)) = self.period().filter(|_| stroke.is_visible()) else {
+            return own;
+        };
+        let length = stroke.length();
+        if !has_course(length) {
+            return own;
         }
+        // Stretched patterns are shorter by a third at most.
+        let periods = (1.5 * length / period) as u64 + 2;
+        own + periods * 2 * pairs.len() as u64
     }
 }
 

@@ -95,8 +95,11 @@ impl Hand {
     /// Most points that a stroke has once [`draw_by_hand`] has drawn it.
     fn points_of(&self, stroke: &Stroke) -> u64 {
         let own = stroke.points.len() as u64;
+        if self.is_none() || !stroke.is_visible() {
+            return own;
+        }
         let length = stroke.length();
-        if self.is_none() || !stroke.is_visible() || !has_course(length) {
+        if !has_course(length) {
             return own;
         }
         let added = match self.sways() {

@@ -504,13 +504,6 @@ impl<S: Session> FrameRenderer<S> {
         look::base_px(style, size[1], dpi, world_px) * enlarged
     }
 
-    /// Base width of lines in a view, in pixels.
-    fn base_px(&self, view: &View, camera: &Camera, model: &Model) -> f32 {
-        let FramePlan { style, options, .. } = &self.plan;
-        let world_px = look::nearest_world_px(view, camera, model);
-        look::base_px(style, options.size[1], options.dpi, world_px)
-    }
-
     /// Hands over how a camera sees the scene, and the strokes that were found in this view.
     pub fn aim(
         &mut self,
@@ -531,7 +524,7 @@ impl<S: Session> FrameRenderer<S> {
 
         // Settle the widths of lines and the rules of their colours in this view.
         let world_px = look::nearest_world_px(&view, camera, model);
-        let base_px = self.base_px(&view, camera, model);
+        let base_px = look::base_px(style, size[1], dpi, world_px);
         let stroke_base_px = self.stroke_base_px(&view, camera, model);
         let (stroke_size, stroke_dpi) = (options.stroke_size(), options.stroke_dpi());
         let enlarged = options.enlarged as f32;
