@@ -222,6 +222,8 @@ fn options(args: &LinesArguments, style: &Style) -> LineOptions {
         kinds: named.unwrap_or(of_style.kinds),
         crease: crease.map_or(of_style.crease, f32::to_radians),
         crease_slack: crease.map_or(of_style.crease_slack, |_| 0.0),
+        crease_hard: crease.map_or(of_style.crease_hard, |_| std::f32::consts::PI),
+        crease_round: crease.map_or(of_style.crease_round, |_| 0.0),
         crease_from: crease_from.map_or(of_style.crease_from, CreaseFrom::from),
         split: split.map_or(of_style.split, LineOptions::split_at),
         method: *method,

@@ -29,7 +29,9 @@ fn list() -> String {
     let line = |preset: &npr_stylesheet::Preset| {
         format!(
             "{:width$}  @{}  {}\n",
-            preset.name, preset.version, preset.title
+            preset.name,
+            preset.version,
+            preset.title()
         )
     };
     presets().iter().map(line).collect()

@@ -19,6 +19,11 @@ pub struct Creases {
     pub weak_cos: f32,
     /// What the angles lie between.
     pub from: CreaseFrom,
+    /// Cosine of the angle between faces from which an edge is a crease however smooth its normals, where `from` is
+    /// [`CreaseFrom::Normals`]; -1 for none.
+    pub hard_cos: f32,
+    /// Width of the widest rounding that is a crease all the same, in the unit of positions; 0 for none.
+    pub round: f32,
 }
 
 impl Creases {
@@ -33,7 +38,24 @@ impl Creases {
             cos: crate::math::cos(angle),
             weak_cos: crate::math::cos((angle - slack.max(0.0)).max(0.0)),
             from,
+            hard_cos: -1.0,
+            round: 0.0,
         }
+    }
+
+    /// The same with edges that fold by this angle between faces, in radians, as creases whatever their normals.
+    pub fn with_hard_folds(self, angle: f32) -> Self {
+        let hard_cos = if angle < std::f32::consts::PI {
+            crate::math::cos(angle)
+        } else {
+            -1.0
+        };
+        Self { hard_cos, ..self }
+    }
+
+    /// The same with narrow roundings, of this width at most, as creases.
+    pub fn with_roundings(self, round: f32) -> Self {
+        Self { round, ..self }
     }
 }
 
@@ -44,6 +66,8 @@ impl From<f32> for Creases {
             cos,
             weak_cos: cos,
             from: CreaseFrom::Normals,
+            hard_cos: -1.0,
+            round: 0.0,
         }
     }
 }

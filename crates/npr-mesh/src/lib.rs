@@ -32,6 +32,7 @@
 //! Sources are cited by key, such as [Rusinkiewicz 2004]; `REFERENCES.md` of the project lists them.
 
 mod buckets;
+pub mod calm;
 pub mod card;
 mod card_lines;
 pub mod classify;
@@ -58,7 +59,7 @@ pub mod stroke_chart;
 #[cfg(any(test, feature = "testing"))]
 pub mod testing;
 mod triangle;
-mod union_find;
+pub mod union_find;
 pub mod vertex_fans;
 mod wedges;
 pub mod weld;

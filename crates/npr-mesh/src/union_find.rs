@@ -3,19 +3,20 @@
 /// Disjoint sets of `0..n`, each named by its smallest member, so that names do not depend on the
 /// order of merges [Tarjan 1975].
 #[derive(Debug)]
-pub(crate) struct UnionFind {
+pub struct UnionFind {
     parent: Vec<u32>,
 }
 
 impl UnionFind {
-    pub(crate) fn new(count: usize) -> Self {
+    /// Sets of one member each.
+    pub fn new(count: usize) -> Self {
         Self {
             parent: (0..count as u32).collect(),
         }
     }
 
     /// The smallest member of the set that holds `member`; halves the path it walks.
-    pub(crate) fn find(&mut self, mut member: u32) -> u32 {
+    pub fn find(&mut self, mut member: u32) -> u32 {
         while self.parent[member as usize] != member {
             let grandparent = self.parent[self.parent[member as usize] as usize];
             self.parent[member as usize] = grandparent;
@@ -24,7 +25,8 @@ impl UnionFind {
         member
     }
 
-    pub(crate) fn unite(&mut self, a: u32, b: u32) {
+    /// Makes one set of the sets that hold two members.
+    pub fn unite(&mut self, a: u32, b: u32) {
         let (a, b) = (self.find(a), self.find(b));
         self.parent[a.max(b) as usize] = a.min(b);
     }

@@ -25,6 +25,7 @@
 mod beam_light;
 mod bend;
 mod brushes;
+mod calm;
 #[cfg(feature = "wgpu")]
 mod device;
 mod error;

@@ -1,6 +1,7 @@
 //! A style applied to a model: the numbers that passes read.
 
 use crate::brushes::Brushes;
+use crate::calm::shading_normals;
 use crate::error::RenderError;
 use crate::hatching::{FrameScale, Inked, add_ink};
 use crate::line_colors::add_line_colors;
@@ -270,6 +271,7 @@ fn styled_vertices(
 ) -> Vec<Vertex> {
     let width = VertexWidth::new(model, style, options);
     let shows_colors = style.shade.use_vertex_colors;
+    let calm = (style.shade.calm > 0.0).then(|| shading_normals(model, style.shade.calm));
     (0..model.vertices.len())
         .map(|i| {
             let vertex = &model.vertices[i];
@@ -282,6 +284,7 @@ fn styled_vertices(
                 width: width.at(i),
                 color,
                 chart_distortion: chart_distortions.get(i).copied().unwrap_or_default(),
+                normal: calm.as_ref().map_or(vertex.normal, |calm| calm[i]),
                 ..*vertex
             }
         })

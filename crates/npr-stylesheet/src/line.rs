@@ -116,6 +116,16 @@ pub struct Line {
     /// drawings as curves.
     #[schemars(range(min = 0.0, max = 180.0))]
     pub crease_slack_deg: f32 = 15.0,
+    /// Angle in degrees between faces from which an edge is a crease however smoothly its normals run on, 0..180;
+    /// default 75. 180 trusts the file's normals alone, 60 draws the bends of coarse limbs. Of `crease_from` normals,
+    /// of method `strokes`, and of drawings as curves.
+    #[schemars(range(min = 0.0, max = 180.0))]
+    pub crease_hard_deg: f32 = 75.0,
+    /// Width of the widest rounding that is drawn as a crease, as a share of the scene's radius, 0..0.2; default 0.015.
+    /// 0 leaves rounded and chamfered edges to the tones, 0.05 draws soft ones too. Only between flat sides. Of method
+    /// `strokes`, and of drawings as curves.
+    #[schemars(range(min = 0.0, max = 0.2))]
+    pub crease_round: f32 = 0.015,
     /// Length under which a crease is left out that ends in the open, where no other line meets it; default 48. 0
     /// draws all, 20 leaves out stubs, 100 all but long folds. Of methods `strokes` and `potrace`, and of drawings as
     /// curves.

@@ -13,699 +13,187 @@ pub struct Preset {
     pub name: &'static str,
     /// Version of the look; raised whenever its pictures change.
     pub version: u32,
-    /// One line for lists.
-    pub title: &'static str,
     /// The text of the style file, with a comment on every value.
     pub text: &'static str,
 }
 
-const PRESETS: &[Preset] = &[
-    Preset {
-        name: "toon",
-        version: 4,
-        title: "Three flat tones of the material's colour under dark brown lines",
-        text: include_str!("../presets/toon.toml"),
-    },
-    Preset {
-        name: "ink",
-        version: 4,
-        title: "Black swelling lines and solid shadows on warm white paper",
-        text: include_str!("../presets/ink.toml"),
-    },
-    Preset {
-        name: "g-pen",
-        version: 4,
-        title: "Nib lines that swell and run out to points, on white paper",
-        text: include_str!("../presets/g-pen.toml"),
-    },
-    Preset {
-        name: "technical",
-        version: 4,
-        title: "Thin even lines on plain white parts, with every crease",
-        text: include_str!("../presets/technical.toml"),
-    },
-    Preset {
-        name: "comic-silver",
-        version: 3,
-        title: "Flat colours, hatching that swells into solid ink, thick swelling outlines",
-        text: include_str!("../presets/comic-silver.toml"),
-    },
-    Preset {
-        name: "comic-modern",
-        version: 5,
-        title: "Soft gradients, thin even lines, small blacks and fine hatching",
-        text: include_str!("../presets/comic-modern.toml"),
-    },
-    Preset {
-        name: "comic-light",
-        version: 3,
-        title: "comic-silver, and materials named Beam* glow: lasers, flashes, explosions, trails",
-        text: include_str!("../presets/comic-light.toml"),
-    },
-    Preset {
-        name: "simple-comic",
-        version: 4,
-        title: "Cel colours, solid black shade, thick even outlines",
-        text: include_str!("../presets/simple-comic.toml"),
-    },
-    Preset {
-        name: "crosshatch",
-        version: 3,
-        title: "Pen strokes round the form, crossed in the dark, on white paper",
-        text: include_str!("../presets/crosshatch.toml"),
-    },
-    Preset {
-        name: "stipple",
-        version: 3,
-        title: "Dots set by hand, dense in the dark, with fine outlines",
-        text: include_str!("../presets/stipple.toml"),
-    },
-    Preset {
-        name: "pencil",
-        version: 4,
-        title: "Graphite on rough paper: shaky strokes, grey lines",
-        text: include_str!("../presets/pencil.toml"),
-    },
-    Preset {
-        name: "screentone",
-        version: 3,
-        title: "Manga page: dots in rows on the picture, solid blacks, clean lines",
-        text: include_str!("../presets/screentone.toml"),
-    },
-    Preset {
-        name: "inked",
-        version: 3,
-        title: "Flat colours under black brush strokes that swell and part where they end",
-        text: include_str!("../presets/inked.toml"),
-    },
-    Preset {
-        name: "manga",
-        version: 3,
-        title: "Nib lines that run out to points, over screen tone",
-        text: include_str!("../presets/manga.toml"),
-    },
-    Preset {
-        name: "brush",
-        version: 3,
-        title: "Broad strokes of a dry brush on rice paper",
-        text: include_str!("../presets/brush.toml"),
-    },
-    Preset {
-        name: "ink-wash",
-        version: 3,
-        title: "A dry brush over soft grey washes on rice paper",
-        text: include_str!("../presets/ink-wash.toml"),
-    },
-    Preset {
-        name: "sketch",
-        version: 2,
-        title: "Lines looked for again and again with a pencil, run on beyond corners",
-        text: include_str!("../presets/sketch.toml"),
-    },
-    Preset {
-        name: "pencil-outline",
-        version: 3,
-        title: "Flat cel colours under outlines scrawled with a soft pencil",
-        text: include_str!("../presets/pencil-outline.toml"),
-    },
-    Preset {
-        name: "charcoal",
-        version: 2,
-        title: "Broad crumbling lines and rubbed greys on laid paper",
-        text: include_str!("../presets/charcoal.toml"),
-    },
-    Preset {
-        name: "chalkboard",
-        version: 3,
-        title: "White chalk lines on a dark green board",
-        text: include_str!("../presets/chalkboard.toml"),
-    },
-    Preset {
-        name: "blueprint",
-        version: 2,
-        title: "White lines on Prussian blue that run on beyond corners",
-        text: include_str!("../presets/blueprint.toml"),
-    },
-    Preset {
-        name: "cel-2",
-        version: 3,
-        title: "Two flat tones under thin lines, as painted on a cel",
-        text: include_str!("../presets/cel-2.toml"),
-    },
-    Preset {
-        name: "cel-3",
-        version: 3,
-        title: "Two flat tones and a crisp highlight under thin lines",
-        text: include_str!("../presets/cel-3.toml"),
-    },
-    Preset {
-        name: "coloured-lines",
-        version: 4,
-        title: "Flat tones under lines in a deep shade of each surface's own colour",
-        text: include_str!("../presets/coloured-lines.toml"),
-    },
-    Preset {
-        name: "atmosphere",
-        version: 4,
-        title: "Flat tones under dark lines that pale and cool with distance",
-        text: include_str!("../presets/atmosphere.toml"),
-    },
-    Preset {
-        name: "lit-lines",
-        version: 4,
-        title: "Lines thin and warm where lit, heavy and cool in the shade, \
-                bright where light from behind catches them",
-        text: include_str!("../presets/lit-lines.toml"),
-    },
-    Preset {
-        name: "night",
-        version: 3,
-        title: "Dark cel paint whose lines lift from dark backgrounds, just enough to read",
-        text: include_str!("../presets/night.toml"),
-    },
-    Preset {
-        name: "plain",
-        version: 1,
-        title: "Materials in soft light, without lines or ink",
-        text: include_str!("../presets/plain.toml"),
-    },
-    Preset {
-        name: "smoke-cel-2",
-        version: 3,
-        title: "Smoke in two tones under a dark line, as painted on a cel",
-        text: include_str!("../presets/smoke-cel-2.toml"),
-    },
-    Preset {
-        name: "smoke-cel-3",
-        version: 3,
-        title: "Smoke in three tones under a dark line",
-        text: include_str!("../presets/smoke-cel-3.toml"),
-    },
-    Preset {
-        name: "smoke-ink",
-        version: 4,
-        title: "Smoke in brush lines and solid blacks on white",
-        text: include_str!("../presets/smoke-ink.toml"),
-    },
-    Preset {
-        name: "smoke-comic",
-        version: 3,
-        title: "Smoke in pen strokes that swell into solid ink, as in comics",
-        text: include_str!("../presets/smoke-comic.toml"),
-    },
-    Preset {
-        name: "cloud",
-        version: 3,
-        title: "Bright clouds in four soft tones without lines",
-        text: include_str!("../presets/cloud.toml"),
-    },
-    Preset {
-        name: "explosion",
-        version: 3,
-        title: "Fire and smoke by heat: white heart, yellow, orange, soot",
-        text: include_str!("../presets/explosion.toml"),
-    },
-    Preset {
-        name: "okuya",
-        version: 1,
-        title: "Comparison: lines found on images and drawn on every edge, as published",
-        text: include_str!("../presets/okuya.toml"),
-    },
-    Preset {
-        name: "filter",
-        version: 1,
-        title: "Comparison: an image filter alone, one width everywhere",
-        text: include_str!("../presets/filter.toml"),
-    },
-    Preset {
-        name: "hull",
-        version: 1,
-        title: "Comparison: a back-face hull swelling with curvature, silhouettes only",
-        text: include_str!("../presets/hull.toml"),
-    },
-    Preset {
-        name: "filter-hull",
-        version: 1,
-        title: "Comparison: the union of image filter and hull",
-        text: include_str!("../presets/filter-hull.toml"),
-    },
+impl Preset {
+    /// One line for lists: the title in its text.
+    pub fn title(&self) -> &'static str {
+        let named = self
+            .text
+            .lines()
+            .find_map(|line| line.strip_prefix("title = \""));
+        named
+            .and_then(|rest| rest.strip_suffix('"'))
+            .unwrap_or_default()
+    }
+}
+
+/// A list of presets: name, version and file of each.
+macro_rules! presets {
+    ($($name:literal $version:literal $file:literal),* $(,)?) => {
+        &[$(Preset {
+            name: $name,
+            version: $version,
+            text: include_str!($file),
+        }),*]
+    };
+}
+
+/// The newest version of every preset, in the order of lists.
+const PRESETS: &[Preset] = presets![
+    "toon" 5 "../presets/toon.toml",
+    "ink" 5 "../presets/ink.toml",
+    "g-pen" 5 "../presets/g-pen.toml",
+    "technical" 5 "../presets/technical.toml",
+    "comic-silver" 4 "../presets/comic-silver.toml",
+    "comic-modern" 6 "../presets/comic-modern.toml",
+    "comic-light" 4 "../presets/comic-light.toml",
+    "simple-comic" 5 "../presets/simple-comic.toml",
+    "crosshatch" 4 "../presets/crosshatch.toml",
+    "stipple" 4 "../presets/stipple.toml",
+    "pencil" 5 "../presets/pencil.toml",
+    "screentone" 4 "../presets/screentone.toml",
+    "inked" 4 "../presets/inked.toml",
+    "manga" 4 "../presets/manga.toml",
+    "brush" 4 "../presets/brush.toml",
+    "ink-wash" 4 "../presets/ink-wash.toml",
+    "sketch" 3 "../presets/sketch.toml",
+    "pencil-outline" 4 "../presets/pencil-outline.toml",
+    "charcoal" 3 "../presets/charcoal.toml",
+    "chalkboard" 4 "../presets/chalkboard.toml",
+    "blueprint" 3 "../presets/blueprint.toml",
+    "cel-2" 4 "../presets/cel-2.toml",
+    "cel-3" 4 "../presets/cel-3.toml",
+    "coloured-lines" 5 "../presets/coloured-lines.toml",
+    "atmosphere" 5 "../presets/atmosphere.toml",
+    "lit-lines" 5 "../presets/lit-lines.toml",
+    "night" 4 "../presets/night.toml",
+    "plain" 2 "../presets/plain.toml",
+    "smoke-cel-2" 4 "../presets/smoke-cel-2.toml",
+    "smoke-cel-3" 4 "../presets/smoke-cel-3.toml",
+    "smoke-ink" 5 "../presets/smoke-ink.toml",
+    "smoke-comic" 4 "../presets/smoke-comic.toml",
+    "cloud" 4 "../presets/cloud.toml",
+    "explosion" 4 "../presets/explosion.toml",
+    "okuya" 1 "../presets/okuya.toml",
+    "filter" 1 "../presets/filter.toml",
+    "hull" 1 "../presets/hull.toml",
+    "filter-hull" 1 "../presets/filter-hull.toml",
 ];
 
-/// Older versions of presets. A style that names such a version keeps its look.
-const OLDER: &[Preset] = &[
-    Preset {
-        name: "atmosphere",
-        version: 1,
-        title: "Flat tones under dark lines that pale and cool with distance",
-        text: include_str!("../presets/older/atmosphere-1.toml"),
-    },
-    Preset {
-        name: "atmosphere",
-        version: 2,
-        title: "Flat tones under dark lines that pale and cool with distance",
-        text: include_str!("../presets/older/atmosphere-2.toml"),
-    },
-    Preset {
-        name: "atmosphere",
-        version: 3,
-        title: "Flat tones under dark lines that pale and cool with distance",
-        text: include_str!("../presets/older/atmosphere-3.toml"),
-    },
-    Preset {
-        name: "blueprint",
-        version: 1,
-        title: "White lines on Prussian blue that run on beyond corners",
-        text: include_str!("../presets/older/blueprint-1.toml"),
-    },
-    Preset {
-        name: "brush",
-        version: 1,
-        title: "Broad strokes of a dry brush on rice paper",
-        text: include_str!("../presets/older/brush-1.toml"),
-    },
-    Preset {
-        name: "brush",
-        version: 2,
-        title: "Broad strokes of a dry brush on rice paper",
-        text: include_str!("../presets/older/brush-2.toml"),
-    },
-    Preset {
-        name: "cel-2",
-        version: 1,
-        title: "Two flat tones under thin lines, as painted on a cel",
-        text: include_str!("../presets/older/cel-2-1.toml"),
-    },
-    Preset {
-        name: "cel-2",
-        version: 2,
-        title: "Two flat tones under thin lines, as painted on a cel",
-        text: include_str!("../presets/older/cel-2-2.toml"),
-    },
-    Preset {
-        name: "cel-3",
-        version: 1,
-        title: "Two flat tones and a crisp highlight under thin lines",
-        text: include_str!("../presets/older/cel-3-1.toml"),
-    },
-    Preset {
-        name: "cel-3",
-        version: 2,
-        title: "Two flat tones and a crisp highlight under thin lines",
-        text: include_str!("../presets/older/cel-3-2.toml"),
-    },
-    Preset {
-        name: "chalkboard",
-        version: 1,
-        title: "White chalk lines on a dark green board",
-        text: include_str!("../presets/older/chalkboard-1.toml"),
-    },
-    Preset {
-        name: "chalkboard",
-        version: 2,
-        title: "White chalk lines on a dark green board",
-        text: include_str!("../presets/older/chalkboard-2.toml"),
-    },
-    Preset {
-        name: "charcoal",
-        version: 1,
-        title: "Broad crumbling lines and rubbed greys on laid paper",
-        text: include_str!("../presets/older/charcoal-1.toml"),
-    },
-    Preset {
-        name: "cloud",
-        version: 1,
-        title: "Bright clouds in four soft tones without lines",
-        text: include_str!("../presets/older/cloud-1.toml"),
-    },
-    Preset {
-        name: "cloud",
-        version: 2,
-        title: "Bright clouds in four soft tones without lines",
-        text: include_str!("../presets/older/cloud-2.toml"),
-    },
-    Preset {
-        name: "coloured-lines",
-        version: 1,
-        title: "Flat tones under lines in a deep shade of each surface's own colour",
-        text: include_str!("../presets/older/coloured-lines-1.toml"),
-    },
-    Preset {
-        name: "coloured-lines",
-        version: 2,
-        title: "Flat tones under lines in a deep shade of each surface's own colour",
-        text: include_str!("../presets/older/coloured-lines-2.toml"),
-    },
-    Preset {
-        name: "coloured-lines",
-        version: 3,
-        title: "Flat tones under lines in a deep shade of each surface's own colour",
-        text: include_str!("../presets/older/coloured-lines-3.toml"),
-    },
-    Preset {
-        name: "comic-light",
-        version: 1,
-        title: "comic-silver, and materials named Beam* glow: lasers, flashes, explosions, trails",
-        text: include_str!("../presets/older/comic-light-1.toml"),
-    },
-    Preset {
-        name: "comic-light",
-        version: 2,
-        title: "comic-silver, and materials named Beam* glow: lasers, flashes, explosions, trails",
-        text: include_str!("../presets/older/comic-light-2.toml"),
-    },
-    Preset {
-        name: "comic-modern",
-        version: 1,
-        title: "Soft gradients, thin lines, small blacks and fine hatching",
-        text: include_str!("../presets/older/comic-modern-1.toml"),
-    },
-    Preset {
-        name: "comic-modern",
-        version: 2,
-        title: "Soft gradients, thin even lines, small blacks and fine hatching",
-        text: include_str!("../presets/older/comic-modern-2.toml"),
-    },
-    Preset {
-        name: "comic-modern",
-        version: 3,
-        title: "Soft gradients, thin even lines, small blacks and fine hatching",
-        text: include_str!("../presets/older/comic-modern-3.toml"),
-    },
-    Preset {
-        name: "comic-modern",
-        version: 4,
-        title: "Soft gradients, thin even lines, small blacks and fine hatching",
-        text: include_str!("../presets/older/comic-modern-4.toml"),
-    },
-    Preset {
-        name: "comic-silver",
-        version: 1,
-        title: "Flat colours, hatching that swells into solid ink, thick swelling outlines",
-        text: include_str!("../presets/older/comic-silver-1.toml"),
-    },
-    Preset {
-        name: "comic-silver",
-        version: 2,
-        title: "Flat colours, hatching that swells into solid ink, thick swelling outlines",
-        text: include_str!("../presets/older/comic-silver-2.toml"),
-    },
-    Preset {
-        name: "crosshatch",
-        version: 1,
-        title: "Pen strokes round the form, crossed in the dark, on white paper",
-        text: include_str!("../presets/older/crosshatch-1.toml"),
-    },
-    Preset {
-        name: "crosshatch",
-        version: 2,
-        title: "Pen strokes round the form, crossed in the dark, on white paper",
-        text: include_str!("../presets/older/crosshatch-2.toml"),
-    },
-    Preset {
-        name: "explosion",
-        version: 1,
-        title: "Fire and smoke by heat: white heart, yellow, orange, soot",
-        text: include_str!("../presets/older/explosion-1.toml"),
-    },
-    Preset {
-        name: "explosion",
-        version: 2,
-        title: "Fire and smoke by heat: white heart, yellow, orange, soot",
-        text: include_str!("../presets/older/explosion-2.toml"),
-    },
-    Preset {
-        name: "g-pen",
-        version: 1,
-        title: "Nib lines that swell and run out to points, on white paper",
-        text: include_str!("../presets/older/g-pen-1.toml"),
-    },
-    Preset {
-        name: "g-pen",
-        version: 2,
-        title: "Nib lines that swell and run out to points, on white paper",
-        text: include_str!("../presets/older/g-pen-2.toml"),
-    },
-    Preset {
-        name: "g-pen",
-        version: 3,
-        title: "Nib lines that swell and run out to points, on white paper",
-        text: include_str!("../presets/older/g-pen-3.toml"),
-    },
-    Preset {
-        name: "ink",
-        version: 1,
-        title: "Black swelling lines and solid shadows on warm white paper",
-        text: include_str!("../presets/older/ink-1.toml"),
-    },
-    Preset {
-        name: "ink",
-        version: 2,
-        title: "Black swelling lines and solid shadows on warm white paper",
-        text: include_str!("../presets/older/ink-2.toml"),
-    },
-    Preset {
-        name: "ink",
-        version: 3,
-        title: "Black swelling lines and solid shadows on warm white paper",
-        text: include_str!("../presets/older/ink-3.toml"),
-    },
-    Preset {
-        name: "ink-wash",
-        version: 1,
-        title: "A dry brush over soft grey washes on rice paper",
-        text: include_str!("../presets/older/ink-wash-1.toml"),
-    },
-    Preset {
-        name: "ink-wash",
-        version: 2,
-        title: "A dry brush over soft grey washes on rice paper",
-        text: include_str!("../presets/older/ink-wash-2.toml"),
-    },
-    Preset {
-        name: "inked",
-        version: 1,
-        title: "Flat colours under black brush strokes that swell and part where they end",
-        text: include_str!("../presets/older/inked-1.toml"),
-    },
-    Preset {
-        name: "inked",
-        version: 2,
-        title: "Flat colours under black brush strokes that swell and part where they end",
-        text: include_str!("../presets/older/inked-2.toml"),
-    },
-    Preset {
-        name: "lit-lines",
-        version: 1,
-        title: "Lines thin and warm where lit, heavy and cool in the shade, bright where light from \
-                behind catches them",
-        text: include_str!("../presets/older/lit-lines-1.toml"),
-    },
-    Preset {
-        name: "lit-lines",
-        version: 2,
-        title: "Lines thin and warm where lit, heavy and cool in the shade, \
-                bright where light from behind catches them",
-        text: include_str!("../presets/older/lit-lines-2.toml"),
-    },
-    Preset {
-        name: "lit-lines",
-        version: 3,
-        title: "Lines thin and warm where lit, heavy and cool in the shade, \
-                bright where light from behind catches them",
-        text: include_str!("../presets/older/lit-lines-3.toml"),
-    },
-    Preset {
-        name: "manga",
-        version: 1,
-        title: "Nib lines that run out to points, over screen tone",
-        text: include_str!("../presets/older/manga-1.toml"),
-    },
-    Preset {
-        name: "manga",
-        version: 2,
-        title: "Nib lines that run out to points, over screen tone",
-        text: include_str!("../presets/older/manga-2.toml"),
-    },
-    Preset {
-        name: "night",
-        version: 1,
-        title: "Dark cel paint whose lines lift from dark backgrounds, just enough to read",
-        text: include_str!("../presets/older/night-1.toml"),
-    },
-    Preset {
-        name: "night",
-        version: 2,
-        title: "Dark cel paint whose lines lift from dark backgrounds, just enough to read",
-        text: include_str!("../presets/older/night-2.toml"),
-    },
-    Preset {
-        name: "pencil",
-        version: 1,
-        title: "Graphite on rough paper: shaky strokes, grey lines",
-        text: include_str!("../presets/older/pencil-1.toml"),
-    },
-    Preset {
-        name: "pencil",
-        version: 2,
-        title: "Graphite on rough paper: shaky strokes, grey lines",
-        text: include_str!("../presets/older/pencil-2.toml"),
-    },
-    Preset {
-        name: "pencil",
-        version: 3,
-        title: "Graphite on rough paper: shaky strokes, grey lines",
-        text: include_str!("../presets/older/pencil-3.toml"),
-    },
-    Preset {
-        name: "pencil-outline",
-        version: 1,
-        title: "Flat cel colours under outlines scrawled with a soft pencil",
-        text: include_str!("../presets/older/pencil-outline-1.toml"),
-    },
-    Preset {
-        name: "pencil-outline",
-        version: 2,
-        title: "Flat cel colours under outlines scrawled with a soft pencil",
-        text: include_str!("../presets/older/pencil-outline-2.toml"),
-    },
-    Preset {
-        name: "screentone",
-        version: 1,
-        title: "Manga page: dots in rows on the picture, solid blacks, clean lines",
-        text: include_str!("../presets/older/screentone-1.toml"),
-    },
-    Preset {
-        name: "screentone",
-        version: 2,
-        title: "Manga page: dots in rows on the picture, solid blacks, clean lines",
-        text: include_str!("../presets/older/screentone-2.toml"),
-    },
-    Preset {
-        name: "simple-comic",
-        version: 1,
-        title: "Cel colours, solid black shade, thick even outlines",
-        text: include_str!("../presets/older/simple-comic-1.toml"),
-    },
-    Preset {
-        name: "simple-comic",
-        version: 2,
-        title: "Cel colours, solid black shade, thick even outlines",
-        text: include_str!("../presets/older/simple-comic-2.toml"),
-    },
-    Preset {
-        name: "simple-comic",
-        version: 3,
-        title: "Cel colours, solid black shade, thick even outlines",
-        text: include_str!("../presets/older/simple-comic-3.toml"),
-    },
-    Preset {
-        name: "sketch",
-        version: 1,
-        title: "Lines looked for again and again with a pencil, run on beyond corners",
-        text: include_str!("../presets/older/sketch-1.toml"),
-    },
-    Preset {
-        name: "smoke-cel-2",
-        version: 1,
-        title: "Smoke in two tones under a dark line, as painted on a cel",
-        text: include_str!("../presets/older/smoke-cel-2-1.toml"),
-    },
-    Preset {
-        name: "smoke-cel-2",
-        version: 2,
-        title: "Smoke in two tones under a dark line, as painted on a cel",
-        text: include_str!("../presets/older/smoke-cel-2-2.toml"),
-    },
-    Preset {
-        name: "smoke-cel-3",
-        version: 1,
-        title: "Smoke in three tones under a dark line",
-        text: include_str!("../presets/older/smoke-cel-3-1.toml"),
-    },
-    Preset {
-        name: "smoke-cel-3",
-        version: 2,
-        title: "Smoke in three tones under a dark line",
-        text: include_str!("../presets/older/smoke-cel-3-2.toml"),
-    },
-    Preset {
-        name: "smoke-comic",
-        version: 1,
-        title: "Smoke in pen strokes that swell into solid ink, as in comics",
-        text: include_str!("../presets/older/smoke-comic-1.toml"),
-    },
-    Preset {
-        name: "smoke-comic",
-        version: 2,
-        title: "Smoke in pen strokes that swell into solid ink, as in comics",
-        text: include_str!("../presets/older/smoke-comic-2.toml"),
-    },
-    Preset {
-        name: "smoke-ink",
-        version: 1,
-        title: "Smoke in brush lines and solid blacks on white",
-        text: include_str!("../presets/older/smoke-ink-1.toml"),
-    },
-    Preset {
-        name: "smoke-ink",
-        version: 2,
-        title: "Smoke in brush lines and solid blacks on white",
-        text: include_str!("../presets/older/smoke-ink-2.toml"),
-    },
-    Preset {
-        name: "smoke-ink",
-        version: 3,
-        title: "Smoke in brush lines and solid blacks on white",
-        text: include_str!("../presets/older/smoke-ink-3.toml"),
-    },
-    Preset {
-        name: "stipple",
-        version: 1,
-        title: "Dots set by hand, dense in the dark, with fine outlines",
-        text: include_str!("../presets/older/stipple-1.toml"),
-    },
-    Preset {
-        name: "stipple",
-        version: 2,
-        title: "Dots set by hand, dense in the dark, with fine outlines",
-        text: include_str!("../presets/older/stipple-2.toml"),
-    },
-    Preset {
-        name: "technical",
-        version: 1,
-        title: "Thin even lines on plain white parts, with every crease",
-        text: include_str!("../presets/older/technical-1.toml"),
-    },
-    Preset {
-        name: "technical",
-        version: 2,
-        title: "Thin even lines on plain white parts, with every crease",
-        text: include_str!("../presets/older/technical-2.toml"),
-    },
-    Preset {
-        name: "technical",
-        version: 3,
-        title: "Thin even lines on plain white parts, with every crease",
-        text: include_str!("../presets/older/technical-3.toml"),
-    },
-    Preset {
-        name: "toon",
-        version: 1,
-        title: "Three flat tones of the material's colour under dark brown lines",
-        text: include_str!("../presets/older/toon-1.toml"),
-    },
-    Preset {
-        name: "toon",
-        version: 2,
-        title: "Three flat tones of the material's colour under dark brown lines",
-        text: include_str!("../presets/older/toon-2.toml"),
-    },
-    Preset {
-        name: "toon",
-        version: 3,
-        title: "Three flat tones of the material's colour under dark brown lines",
-        text: include_str!("../presets/older/toon-3.toml"),
-    },
+/// Versions that are no longer the newest, by name.
+const OLDER: &[Preset] = presets![
+    "atmosphere" 1 "../presets/older/atmosphere-1.toml",
+    "atmosphere" 2 "../presets/older/atmosphere-2.toml",
+    "atmosphere" 3 "../presets/older/atmosphere-3.toml",
+    "atmosphere" 4 "../presets/older/atmosphere-4.toml",
+    "blueprint" 1 "../presets/older/blueprint-1.toml",
+    "blueprint" 2 "../presets/older/blueprint-2.toml",
+    "brush" 1 "../presets/older/brush-1.toml",
+    "brush" 2 "../presets/older/brush-2.toml",
+    "brush" 3 "../presets/older/brush-3.toml",
+    "cel-2" 1 "../presets/older/cel-2-1.toml",
+    "cel-2" 2 "../presets/older/cel-2-2.toml",
+    "cel-2" 3 "../presets/older/cel-2-3.toml",
+    "cel-3" 1 "../presets/older/cel-3-1.toml",
+    "cel-3" 2 "../presets/older/cel-3-2.toml",
+    "cel-3" 3 "../presets/older/cel-3-3.toml",
+    "chalkboard" 1 "../presets/older/chalkboard-1.toml",
+    "chalkboard" 2 "../presets/older/chalkboard-2.toml",
+    "chalkboard" 3 "../presets/older/chalkboard-3.toml",
+    "charcoal" 1 "../presets/older/charcoal-1.toml",
+    "charcoal" 2 "../presets/older/charcoal-2.toml",
+    "cloud" 1 "../presets/older/cloud-1.toml",
+    "cloud" 2 "../presets/older/cloud-2.toml",
+    "cloud" 3 "../presets/older/cloud-3.toml",
+    "coloured-lines" 1 "../presets/older/coloured-lines-1.toml",
+    "coloured-lines" 2 "../presets/older/coloured-lines-2.toml",
+    "coloured-lines" 3 "../presets/older/coloured-lines-3.toml",
+    "coloured-lines" 4 "../presets/older/coloured-lines-4.toml",
+    "comic-light" 1 "../presets/older/comic-light-1.toml",
+    "comic-light" 2 "../presets/older/comic-light-2.toml",
+    "comic-light" 3 "../presets/older/comic-light-3.toml",
+    "comic-modern" 1 "../presets/older/comic-modern-1.toml",
+    "comic-modern" 2 "../presets/older/comic-modern-2.toml",
+    "comic-modern" 3 "../presets/older/comic-modern-3.toml",
+    "comic-modern" 4 "../presets/older/comic-modern-4.toml",
+    "comic-modern" 5 "../presets/older/comic-modern-5.toml",
+    "comic-silver" 1 "../presets/older/comic-silver-1.toml",
+    "comic-silver" 2 "../presets/older/comic-silver-2.toml",
+    "comic-silver" 3 "../presets/older/comic-silver-3.toml",
+    "crosshatch" 1 "../presets/older/crosshatch-1.toml",
+    "crosshatch" 2 "../presets/older/crosshatch-2.toml",
+    "crosshatch" 3 "../presets/older/crosshatch-3.toml",
+    "explosion" 1 "../presets/older/explosion-1.toml",
+    "explosion" 2 "../presets/older/explosion-2.toml",
+    "explosion" 3 "../presets/older/explosion-3.toml",
+    "g-pen" 1 "../presets/older/g-pen-1.toml",
+    "g-pen" 2 "../presets/older/g-pen-2.toml",
+    "g-pen" 3 "../presets/older/g-pen-3.toml",
+    "g-pen" 4 "../presets/older/g-pen-4.toml",
+    "ink" 1 "../presets/older/ink-1.toml",
+    "ink" 2 "../presets/older/ink-2.toml",
+    "ink" 3 "../presets/older/ink-3.toml",
+    "ink" 4 "../presets/older/ink-4.toml",
+    "ink-wash" 1 "../presets/older/ink-wash-1.toml",
+    "ink-wash" 2 "../presets/older/ink-wash-2.toml",
+    "ink-wash" 3 "../presets/older/ink-wash-3.toml",
+    "inked" 1 "../presets/older/inked-1.toml",
+    "inked" 2 "../presets/older/inked-2.toml",
+    "inked" 3 "../presets/older/inked-3.toml",
+    "lit-lines" 1 "../presets/older/lit-lines-1.toml",
+    "lit-lines" 2 "../presets/older/lit-lines-2.toml",
+    "lit-lines" 3 "../presets/older/lit-lines-3.toml",
+    "lit-lines" 4 "../presets/older/lit-lines-4.toml",
+    "manga" 1 "../presets/older/manga-1.toml",
+    "manga" 2 "../presets/older/manga-2.toml",
+    "manga" 3 "../presets/older/manga-3.toml",
+    "night" 1 "../presets/older/night-1.toml",
+    "night" 2 "../presets/older/night-2.toml",
+    "night" 3 "../presets/older/night-3.toml",
+    "pencil" 1 "../presets/older/pencil-1.toml",
+    "pencil" 2 "../presets/older/pencil-2.toml",
+    "pencil" 3 "../presets/older/pencil-3.toml",
+    "pencil" 4 "../presets/older/pencil-4.toml",
+    "pencil-outline" 1 "../presets/older/pencil-outline-1.toml",
+    "pencil-outline" 2 "../presets/older/pencil-outline-2.toml",
+    "pencil-outline" 3 "../presets/older/pencil-outline-3.toml",
+    "plain" 1 "../presets/older/plain-1.toml",
+    "screentone" 1 "../presets/older/screentone-1.toml",
+    "screentone" 2 "../presets/older/screentone-2.toml",
+    "screentone" 3 "../presets/older/screentone-3.toml",
+    "simple-comic" 1 "../presets/older/simple-comic-1.toml",
+    "simple-comic" 2 "../presets/older/simple-comic-2.toml",
+    "simple-comic" 3 "../presets/older/simple-comic-3.toml",
+    "simple-comic" 4 "../presets/older/simple-comic-4.toml",
+    "sketch" 1 "../presets/older/sketch-1.toml",
+    "sketch" 2 "../presets/older/sketch-2.toml",
+    "smoke-cel-2" 1 "../presets/older/smoke-cel-2-1.toml",
+    "smoke-cel-2" 2 "../presets/older/smoke-cel-2-2.toml",
+    "smoke-cel-2" 3 "../presets/older/smoke-cel-2-3.toml",
+    "smoke-cel-3" 1 "../presets/older/smoke-cel-3-1.toml",
+    "smoke-cel-3" 2 "../presets/older/smoke-cel-3-2.toml",
+    "smoke-cel-3" 3 "../presets/older/smoke-cel-3-3.toml",
+    "smoke-comic" 1 "../presets/older/smoke-comic-1.toml",
+    "smoke-comic" 2 "../presets/older/smoke-comic-2.toml",
+    "smoke-comic" 3 "../presets/older/smoke-comic-3.toml",
+    "smoke-ink" 1 "../presets/older/smoke-ink-1.toml",
+    "smoke-ink" 2 "../presets/older/smoke-ink-2.toml",
+    "smoke-ink" 3 "../presets/older/smoke-ink-3.toml",
+    "smoke-ink" 4 "../presets/older/smoke-ink-4.toml",
+    "stipple" 1 "../presets/older/stipple-1.toml",
+    "stipple" 2 "../presets/older/stipple-2.toml",
+    "stipple" 3 "../presets/older/stipple-3.toml",
+    "technical" 1 "../presets/older/technical-1.toml",
+    "technical" 2 "../presets/older/technical-2.toml",
+    "technical" 3 "../presets/older/technical-3.toml",
+    "technical" 4 "../presets/older/technical-4.toml",
+    "toon" 1 "../presets/older/toon-1.toml",
+    "toon" 2 "../presets/older/toon-2.toml",
+    "toon" 3 "../presets/older/toon-3.toml",
+    "toon" 4 "../presets/older/toon-4.toml",
 ];
 
 /// Every preset in its newest version, those for everyday use first.
@@ -767,7 +255,7 @@ mod tests {
                 let style = Style::preset(&name).unwrap_or_else(|error| panic!("{name}: {error}"));
                 assert_eq!(
                     (style.version, style.title.as_str()),
-                    (version, found.title)
+                    (version, found.title())
                 );
             }
             assert_eq!(
@@ -813,6 +301,10 @@ mod tests {
                 .find(|(name, _)| *name == older.name)
                 .map_or(1, |(_, version)| *version);
             let newest = line_of(older.name);
+            if newest.method == OutlineMethod::Off {
+                assert_eq!(line.method, OutlineMethod::Off, "{}", older.name);
+                continue;
+            }
             if older.version <= last {
                 assert_eq!(line.method, OutlineMethod::Shape, "{}", older.name);
                 assert!(line.brush.is_pen(), "{}", older.name);
@@ -835,35 +327,74 @@ mod tests {
         }
     }
 
-    /// Versions that are older, and leave out short lines as the newest do.
-    const WITHOUT_STUBS: [(&str, u32); 16] = [
+    /// The first version of every preset that leaves out short lines, where there was one that did not.
+    const FIRST_WITHOUT_STUBS: [(&str, u32); 34] = [
         ("atmosphere", 3),
+        ("blueprint", 2),
         ("brush", 2),
+        ("cel-2", 3),
+        ("cel-3", 3),
         ("chalkboard", 2),
+        ("charcoal", 2),
+        ("cloud", 3),
         ("coloured-lines", 3),
+        ("comic-light", 3),
         ("comic-modern", 4),
+        ("comic-silver", 3),
+        ("crosshatch", 3),
+        ("explosion", 3),
         ("g-pen", 3),
         ("ink", 3),
         ("ink-wash", 2),
         ("inked", 2),
         ("lit-lines", 3),
         ("manga", 2),
+        ("night", 3),
+        ("pencil", 4),
         ("pencil-outline", 2),
+        ("plain", 1),
+        ("screentone", 3),
         ("simple-comic", 3),
+        ("sketch", 2),
+        ("smoke-cel-2", 3),
+        ("smoke-cel-3", 3),
+        ("smoke-comic", 3),
         ("smoke-ink", 3),
+        ("stipple", 3),
         ("technical", 3),
         ("toon", 3),
     ];
 
     #[test]
     fn versions_from_before_stubs_draw_all_short_lines() {
-        let leaves_out = |older: &&Preset| WITHOUT_STUBS.contains(&(older.name, older.version));
+        let leaves_out = |older: &&Preset| {
+            let of_name =
+                |(name, first): &(&str, u32)| *name == older.name && *first <= older.version;
+            FIRST_WITHOUT_STUBS.iter().any(of_name)
+        };
         for older in OLDER.iter().filter(|older| !leaves_out(older)) {
             let name = format!("{}@{}", older.name, older.version);
             let line = Style::preset(&name).expect("a preset").line;
             let lengths = [line.crease_least, line.least].map(|length| length.value);
             assert_eq!((line.crease_slack_deg, lengths), (0.0, [0.0; 2]), "{name}");
         }
+    }
+
+    #[test]
+    fn versions_from_before_calm_tones_and_rounded_edges_have_neither() {
+        for older in OLDER {
+            let style =
+                Style::preset(&format!("{}@{}", older.name, older.version)).expect("a preset");
+            let both = [style.shade.calm, style.line.crease_round];
+            assert_eq!(
+                style.line.crease_hard_deg, 180.0,
+                "{}@{}",
+                older.name, older.version
+            );
+            assert_eq!(both, [0.0; 2], "{}@{}", older.name, older.version);
+        }
+        let toon = Style::preset("toon").expect("a preset");
+        assert!(toon.shade.calm > 0.0 && toon.line.crease_round > 0.0);
     }
 
     #[test]

@@ -24,6 +24,7 @@ mod overshoot;
 pub mod polyline;
 pub mod puff;
 mod relabel_intersections;
+pub mod rounded;
 pub mod run;
 mod run_assembly;
 mod smooth;

@@ -179,8 +179,8 @@ fn camera() -> Camera {
     }
 }
 
-/// A ball and a box that cut through each other on a floor of two materials, a beam, a sheet with a fold, and a blade
-/// of grass.
+/// A ball and a box that cut through each other on a floor of two materials, a beam, a sheet with a fold, a blade of
+/// grass, and a step with a rounded edge.
 fn scene() -> Scene {
     let mut scene = scene_of(&[
         Object::new("Ball", placed(&icosphere(2), [0.8; 3], [-0.7, 0.2, 0.0]))
@@ -195,6 +195,7 @@ fn scene() -> Scene {
         Object::new("Glow", boxed([0.9, -0.4, 0.6], [1.1, 1.2, 0.8])),
         Object::new("Roof", roof()).double_sided(),
         Object::new("Blade", blade()).double_sided(),
+        Object::new("Step", step()).double_sided(),
     ]);
     // One object of two materials, whose border is a line.
     let trim = scene.meshes[3].parts.remove(0);
@@ -207,6 +208,11 @@ fn scene() -> Scene {
         .iter()
         .map(|p| away(p).normalize().to_array());
     ball.normals = Some(normals.collect());
+    // So is the step.
+    let step = &mut scene.meshes[7].parts[0];
+    let weld = npr_mesh::weld(&step.positions, 0.0);
+    let smooth = npr_mesh::smooth_normals(&step.positions, &step.triangles, &weld);
+    step.normals = Some(weld.spread(&smooth));
     for part in scene.meshes.iter_mut().flat_map(|mesh| &mut mesh.parts) {
         let places = || part.positions.iter();
         part.uvs = Some(
@@ -264,6 +270,29 @@ fn roof() -> npr_mesh::Mesh {
             [corner, corner + 3, corner + 1],
             [corner + 1, corner + 3, corner + 4],
         ]
+    });
+    npr_mesh::Mesh::new(rows.collect(), triangles.collect()).unwrap()
+}
+
+/// A step before the box: its upper edge is rounded, and it meets the floor at a right angle.
+fn step() -> npr_mesh::Mesh {
+    let side = [
+        [0.0, 0.3],
+        [0.25, 0.3],
+        [0.257, 0.299],
+        [0.264, 0.293],
+        [0.265, 0.285],
+        [0.265, 0.0],
+        [0.5, 0.0],
+    ];
+    let rows = [-0.2, 0.2, 0.6]
+        .into_iter()
+        .flat_map(|x| side.map(|[z, y]| [x, y - 0.75, z + 1.0]));
+    let count = side.len() as u32;
+    let corners = (0..2).flat_map(|row| (0..count - 1).map(move |i| row * count + i));
+    let triangles = corners.flat_map(|a| {
+        let [b, c, d] = [a + 1, a + count, a + count + 1];
+        [[a, b, c], [b, d, c]]
     });
     npr_mesh::Mesh::new(rows.collect(), triangles.collect()).unwrap()
 }

@@ -3,6 +3,7 @@
 use super::comic_look::ball;
 use npr_core::color::linear_from_srgb;
 use npr_gpu::processor::Processor;
+use npr_mesh::testing::icosphere;
 use npr_render::{Frame, Model, Picture, RenderError, Renderer, RendererOptions};
 use npr_scene::Scene;
 use npr_stylesheet::{Stop, Style};
@@ -147,4 +148,64 @@ fn a_pattern_in_a_rule_takes_the_place_of_the_picture() {
         .rule;
     let frame = draw_pictured(&ball(), &pictured, &bars());
     assert_eq!(frame.rgba, plain.rgba);
+}
+
+/// Pieces of equal colour that lie together in a picture.
+fn patches(frame: &Frame) -> usize {
+    let [width, height] = frame.size.map(|side| side as usize);
+    let colors: Vec<&[u8]> = frame.rgba.chunks_exact(4).collect();
+    let mut is_seen = vec![false; colors.len()];
+    let mut count = 0;
+    for start in 0..colors.len() {
+        let mut open = Vec::new();
+        if !std::mem::replace(&mut is_seen[start], true) {
+            count += 1;
+            open.push(start);
+        }
+        while let Some(at) = open.pop() {
+            let [x, y] = [at % width, at / width];
+            let beside = [
+                (x > 0).then(|| at - 1),
+                (x + 1 < width).then(|| at + 1),
+                (y > 0).then(|| at - width),
+                (y + 1 < height).then(|| at + width),
+            ];
+            for next in beside.into_iter().flatten() {
+                if colors[next] == colors[at] && !std::mem::replace(&mut is_seen[next], true) {
+                    open.push(next);
+                }
+            }
+        }
+    }
+    count
+}
+
+#[test]
+fn the_grain_of_a_scan_does_not_show_in_the_edges_of_tones() {
+    // A ball whose normals are those of a scan: each a little aside.
+    let mut scene = scene_of(&[Object::new("Ball", icosphere(5))]);
+    let part = &mut scene.meshes[0].parts[0];
+    let mut state = 20_031_u64;
+    let mut aside = || {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1);
+        ((state >> 40) as f32 / (1 << 23) as f32 - 1.0) * 0.1
+    };
+    let normals = part.positions.iter().map(|p| {
+        let shaken = glam::Vec3::from(*p) + glam::Vec3::new(aside(), aside(), aside());
+        shaken.normalize().to_array()
+    });
+    part.normals = Some(normals.collect());
+
+    // Without lines and grey edges, each patch is a tone, the background, or a speck of grain.
+    let drawn = |calm: &str| {
+        let mut style = Style::preset("toon").unwrap();
+        for setting in ["line.method=none", "antialias.samples=1", calm] {
+            style.set(setting).unwrap();
+        }
+        patches(&draw_from(&scene, &style, &front(), SIZE).frame)
+    };
+    let [grainy, calm] = ["shade.calm=0", "shade.calm=0.1"].map(drawn);
+    assert!(grainy > 4 * calm, "{grainy} {calm}");
 }

@@ -43,12 +43,14 @@ const GOAL_BYTES_A_PIXEL: f64 = 150.0;
 
 /// Other frames of interest: their model, where it is a ball of so many triangles and not the usual one, preset and
 /// setting, size.
-const OTHERS: [(Option<usize>, &str, &str, [u32; 2]); 9] = [
+const OTHERS: [(Option<usize>, &str, &str, [u32; 2]); 11] = [
     (Some(300_000), "toon", "", [1920, 1080]),
     (Some(66_400), "okuya", "antialias.samples=1", [1280, 720]),
     (Some(66_400), "okuya", "antialias.samples=1", [1920, 1080]),
     (None, "toon", "line.width.base=1", [1920, 1080]),
     (None, "toon", "line.width.base=8", [1920, 1080]),
+    (None, "toon", "line.brush.tip=dry-brush", [1920, 1080]),
+    (None, "brush", "", [1920, 1080]),
     (None, "plain", "", [1920, 1080]),
     (None, "comic-silver", "", [1920, 1080]),
     (None, "crosshatch", "", [1920, 1080]),

@@ -54,7 +54,7 @@ pub(super) fn strokes(
         view: &of_frame,
         is_drawn: &paint.lined_surfaces(),
         kinds: settings.kinds,
-        creases: options.creases(),
+        creases: options.creases_of_pixels(),
         depth_threshold: options.depth_threshold,
     };
     let picture = SurfacePicture::new(&scene);

@@ -92,9 +92,9 @@ pub struct LineModel {
     pictures: BTreeMap<String, Picture>,
 }
 
-/// What lines are prepared for: the cosines of the crease angles, as bits, what these lie between, and whether
-/// intersections are wanted.
-type PreparedKey = ([u32; 2], CreaseFrom, bool);
+/// What lines are prepared for: the cosines of the crease angles and the width of roundings, as bits, what these lie
+/// between, and whether intersections are wanted.
+type PreparedKey = ([u32; 4], CreaseFrom, bool);
 
 /// What a drawing is made of besides contours.
 struct Wanted<'a> {
@@ -589,11 +589,17 @@ impl LineModel {
 
     /// What does not depend on the camera, made anew only where the crease angle or the wish for intersections changes.
     pub(super) fn prepared(&self, options: &LineOptions) -> Result<Arc<Prepared>, RenderError> {
-        let creases = options.creases();
+        let creases = options.creases(placement::radius_of(self.bounds));
         let is_on_mesh = !options.method.is_of_pixels();
         let with_crossings = is_on_mesh && options.kinds.has(Kind::Intersection);
-        let angles = [creases.cos, creases.weak_cos].map(f32::to_bits);
-        let key = (angles, creases.from, with_crossings);
+        let lengths = [
+            creases.cos,
+            creases.weak_cos,
+            creases.hard_cos,
+            creases.round,
+        ]
+        .map(f32::to_bits);
+        let key = (lengths, creases.from, with_crossings);
         let mut last = self.prepared.lock().unwrap_or_else(PoisonError::into_inner);
         match &*last {
             Some((of, prepared)) if *of == key => Ok(Arc::clone(prepared)),

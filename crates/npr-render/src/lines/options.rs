@@ -53,6 +53,12 @@ pub struct LineOptions {
     pub crease_from: CreaseFrom,
     /// By how much less an edge may fold where a crease goes on along it, in radians; default 0. Of lines on meshes.
     pub crease_slack: f32,
+    /// Angle in radians between faces from which an edge is a crease however smooth the file's normals; default pi,
+    /// none. Of lines on meshes.
+    pub crease_hard: f32,
+    /// Width of the widest rounding that is a crease all the same, as a share of the scene's radius; default 0, none.
+    /// Of lines on meshes.
+    pub crease_round: f32,
     /// How contours are found; default along mesh edges.
     pub method: LineSource,
     /// Whether strokes are smoothed, their ends joined, and what is too short to read left out; default true.
@@ -113,6 +119,8 @@ impl LineOptions {
             crease: npr_stylesheet::CREASE_ANGLE_DEG.to_radians(),
             crease_from: CreaseFrom::default(),
             crease_slack: 0.0,
+            crease_hard: std::f32::consts::PI,
+            crease_round: 0.0,
             method: LineSource::default(),
             smooth: true,
             hidden: false,
@@ -134,6 +142,8 @@ impl LineOptions {
             crease: style.line.crease_angle_deg.to_radians(),
             crease_from: look::creases(style).from,
             crease_slack: style.line.crease_slack_deg.to_radians(),
+            crease_hard: style.line.crease_hard_deg.to_radians(),
+            crease_round: style.line.crease_round,
             split: Self::split_at(style.line.split_angle_deg),
             potrace: style.line.potrace.path(),
             depth_threshold: style.detect.depth_threshold(),
@@ -141,9 +151,16 @@ impl LineOptions {
         }
     }
 
-    /// Which edges are creases.
-    pub(crate) fn creases(&self) -> Creases {
+    /// Which edges are creases for methods of pixels: by the angle alone.
+    pub(crate) fn creases_of_pixels(&self) -> Creases {
+        Creases::over(self.crease, self.crease_from)
+    }
+
+    /// Which edges of a scene of this radius are creases.
+    pub(crate) fn creases(&self, radius: f32) -> Creases {
         Creases::with_slack(self.crease, self.crease_slack, self.crease_from)
+            .with_hard_folds(self.crease_hard)
+            .with_roundings(self.crease_round.max(0.0) * radius)
     }
 
     /// What [`LineOptions::split`] is for an angle in degrees: no line turns by more than 180, which stands for never.

@@ -64,7 +64,7 @@ pub(super) fn traced(
         view: &of_frame,
         eye: &eye_of(view.shape, view.projector),
         kinds: options.kinds.bits(),
-        creases: options.creases(),
+        creases: options.creases_of_pixels(),
         is_drawn: &paint.lined_surfaces(),
     };
     find.pixels(

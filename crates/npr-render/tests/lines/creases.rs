@@ -236,3 +236,54 @@ fn a_short_crease_in_the_open_is_left_out() {
         assert_eq!(least(0.9 * length), (whole.clone(), ink), "{key}");
     }
 }
+
+/// A roof of two sides that a file shades as smooth: rounded off along the middle, or folded sharply by an angle.
+fn roof(profile: &[[f32; 2]]) -> Scene {
+    let rows = [-6.0, -2.0, 2.0, 6.0].into_iter();
+    let rows = rows.flat_map(|x| profile.iter().map(move |[y, z]| [x, *y, *z]));
+    let count = profile.len() as u32;
+    let corners = (0..3).flat_map(|row| (0..count - 1).map(move |i| row * count + i));
+    let triangles = corners.flat_map(|a| {
+        let [b, c, d] = [a + 1, a + count, a + count + 1];
+        [[a, c, b], [b, c, d]]
+    });
+    let mesh = npr_mesh::Mesh::new(rows.collect(), triangles.collect()).expect("sound");
+    let weld = npr_mesh::weld(mesh.positions(), 0.0);
+    let smooth = npr_mesh::smooth_normals(mesh.positions(), mesh.triangles(), &weld);
+    let mut scene = Scene::default();
+    add(&mut scene, "roof", &mesh);
+    scene.meshes[0].parts[0].normals = Some(weld.spread(&smooth));
+    scene
+}
+
+#[test]
+fn a_rounded_edge_is_a_line_unless_the_style_leaves_it_to_tones() {
+    // A quarter of a turn within 0.03, where the scene's radius is some 6.
+    let at = |deg: f32| {
+        let angle = deg.to_radians();
+        [0.02 * math::sin(angle), 0.02 * (math::cos(angle) - 1.0)]
+    };
+    let arc = [-45.0, -15.0, 15.0, 45.0].map(at);
+    let round = roof(&[&[[-1.0, -1.0]], &arc[..], &[[1.0, -1.0]]].concat());
+    let (lengths, ink) = shown(&round, &[]);
+    let [length] = lengths[..] else {
+        panic!("{lengths:?}");
+    };
+    assert!(ink as f64 > 150.0 && length > 250.0, "{ink} {length}");
+    assert_eq!(shown(&round, &["line.crease_round=0"]), (vec![], 0));
+}
+
+#[test]
+fn a_hard_fold_is_a_line_however_smooth_its_normals() {
+    let fold = roof(&[[-1.0, -1.0], [0.0, 0.0], [1.0, -1.0]]);
+    let (lengths, ink) = shown(&fold, &[]);
+    assert!(lengths.len() == 1 && ink > 150, "{lengths:?} {ink}");
+    let off = ["line.crease_hard_deg=91", "line.crease_hard_deg=180"];
+    for off in off {
+        assert_eq!(
+            shown(&fold, &[off, "line.crease_round=0"]),
+            (vec![], 0),
+            "{off}"
+        );
+    }
+}

@@ -6,9 +6,9 @@ use crate::OutlineMethod::{
 };
 use crate::Pattern;
 use crate::{
-    BackgroundMethod, BrushMapping, CardLines, Edge, Follow, HighlightModel, LineColorSource,
-    LineStart, Mapping, Measure, ShadeMode, SmokeLines, SmokeMethod, SmokeParticles, Tone,
-    WidthSource,
+    BackgroundMethod, BrushMapping, CardLines, CreaseFrom, Edge, Follow, HighlightModel,
+    LineColorSource, LineStart, Mapping, Measure, ShadeMode, SmokeLines, SmokeMethod,
+    SmokeParticles, Tone, WidthSource,
 };
 use npr_core::geometry::Part;
 use npr_core::line_source::LineSource;
@@ -149,6 +149,7 @@ pub(super) const ENTRIES: &[Entry] = &[
             "shade.ramp",
             "shade.ramp_image",
             "shade.softness",
+            "shade.calm",
             "ink",
             "antialias",
         ],
@@ -344,9 +345,25 @@ pub(super) const ENTRIES: &[Entry] = &[
     of_methods(&["line.crease_angle_deg", "line.crease_from"], |c| {
         !c.is_drawn_by(&[Shape, Okuya, Filter, FilterHull, Strokes, Potrace])
     }),
-    of_methods(&["line.crease_slack_deg"], |c| !c.is_drawn_by(&[Strokes])),
+    of_methods(
+        &[
+            "line.crease_slack_deg",
+            "line.crease_hard_deg",
+            "line.crease_round",
+        ],
+        |c| !c.is_drawn_by(&[Strokes]),
+    ),
     entry(
-        &["line.crease_slack_deg"],
+        &["line.crease_hard_deg"],
+        |c| c.style.line.crease_from == CreaseFrom::Faces,
+        "line.crease_from is faces, which need no other angle",
+    ),
+    entry(
+        &[
+            "line.crease_slack_deg",
+            "line.crease_hard_deg",
+            "line.crease_round",
+        ],
         |c| c.is_found_by(LineSource::Potrace) || c.is_found_by(LineSource::Image),
         "methods of pixels find creases by the angle alone",
     ),

@@ -27,7 +27,7 @@ fn every_preset_reads_and_survives_writing() {
             Style::preset(preset.name).unwrap_or_else(|error| panic!("{}: {error}", preset.name));
         assert_eq!(
             (style.title.as_str(), style.version),
-            (preset.title, preset.version)
+            (preset.title(), preset.version)
         );
         let text = style.to_toml().expect("a style that was read");
         assert_eq!(read(&text), Ok(style), "{}", preset.name);
@@ -210,7 +210,7 @@ fn slips_are_named_with_place_and_cure() {
             "extends = 'inc'",
             "cannot read parent style 'inc': no file 'inc'",
         ),
-        ("extends = 'ink@9'", "preset 'ink' has no version 9, only 4"),
+        ("extends = 'ink@9'", "preset 'ink' has no version 9, only 5"),
     ] {
         assert_eq!(message(text), expected);
     }

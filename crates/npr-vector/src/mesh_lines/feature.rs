@@ -3,8 +3,10 @@
 //! They are found and linked once a shape; a view only leaves some of them out ([`kind_in_view`]).
 
 use crate::mesh_lines::graph::{CurveGraph, CurveNode};
+use crate::mesh_lines::rounded::rounded_edges;
+use crate::mesh_lines::zero_set::CornerNormals;
 use glam::DVec3;
-use npr_core::crease::Creases;
+use npr_core::crease::{CreaseFrom, Creases};
 use npr_core::edge_flags::EdgeFlags;
 use npr_core::geometry::NONE;
 use npr_core::line_kind::{KIND_NUMBER_BITS, Kind, KindSet};
@@ -34,11 +36,18 @@ const OPEN_SHARE: f64 = 0.5;
 /// O(edges + features log features).
 pub fn features(shape: &HalfEdgeMesh, creases: impl Into<Creases>) -> CurveGraph {
     let creases = creases.into();
-    let candidates: Vec<(u32, u32)> = (0..shape.edge_count() as u32)
+    let mut candidates: Vec<(u32, u32)> = (0..shape.edge_count() as u32)
         .into_par_iter()
         .with_min_len(8192)
         .filter_map(|edge| static_flags(shape, edge, creases).map(|flags| (edge, flags)))
         .collect();
+    if creases.round > 0.0 {
+        let normals = CornerNormals::new(shape, creases);
+        let is_feature = |edge: &u32| static_flags(shape, *edge, creases).is_some();
+        let rounded = rounded_edges(shape, &normals, creases);
+        let rounded = rounded.into_iter().filter(|edge| !is_feature(edge));
+        candidates.extend(rounded.map(|edge| (edge, KindSet::CREASE)));
+    }
     let mates = mates(shape, &candidates);
     if creases.weak_cos <= creases.cos {
         return chain(shape, &candidates, &mates);
@@ -151,10 +160,17 @@ fn retain(
     )
 }
 
+/// Whether an edge folds enough to be a crease.
+pub(crate) fn folds(shape: &HalfEdgeMesh, edge: u32, creases: Creases) -> bool {
+    let is_hard =
+        creases.from == CreaseFrom::Normals && shape.dihedral_cos[edge as usize] < creases.hard_cos;
+    is_hard || shape.fold_cos(edge, creases.from) < creases.cos
+}
+
 /// The flags that an edge has in every view; `None` where it is no line in any.
 pub(crate) fn static_flags(shape: &HalfEdgeMesh, edge: u32, creases: Creases) -> Option<u32> {
     let traits = shape.edge_traits[edge as usize];
-    let bends = shape.fold_cos(edge, creases.from) < creases.cos;
+    let bends = folds(shape, edge, creases);
     let is_crease = bends || traits.contains(EdgeFlags::NON_MANIFOLD);
     // Flags that make an edge a line have the bits of its kinds.
     let flags = traits.0 & KindSet::BITS | if is_crease { KindSet::CREASE } else { 0 };

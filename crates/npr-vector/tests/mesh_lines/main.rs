@@ -4,4 +4,5 @@ mod creases_going_on;
 mod crowds;
 mod lines;
 mod polylines;
+mod rounded_edges;
 mod surface_locations;
