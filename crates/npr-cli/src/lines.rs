@@ -7,11 +7,12 @@ use crate::dump::dump_style;
 use crate::engine::{Drawn, EngineChoice};
 use crate::fault::{Exit, Fault};
 use crate::idle;
-use crate::line_file;
+use crate::line_file::{self, Ink};
 use crate::line_job::LineJob;
 use crate::look::Look;
 use crate::message;
 use crate::progress::Progress;
+use crate::reel::Shown;
 use crate::source::Loaded;
 use crate::timings::Timings;
 use crate::viewpoint;
@@ -83,18 +84,17 @@ fn draw(job: &LineJob<'_>, progress: &mut Progress) -> Result<Drawn<LineFrame>, 
     progress.suspend(|| {
         message::warn_all(job.args.drawing.quiet, &drawing.notices);
     });
-    let view = camera.view(drawing.size, lines.bounds());
-    let lettering = job.lettering.placed(&view, job.options.dpi);
     let bytes = progress.step("encode", || {
-        line_file::encode(job, drawing, model.brushes, lettering)
+        line_file::encode(job, drawing, model.ink(job, &camera))
     })?;
-    progress.step("write", || job.output.write(&bytes))?;
+    progress.step("write", || job.target.output(0)?.write(&bytes))?;
     Ok(drawn)
 }
 
 /// A scene prepared for drawing lines.
-struct Prepared {
-    lines: LineModel,
+pub struct Prepared {
+    /// Its lines.
+    pub lines: LineModel,
     /// The model that the background is drawn from, where lines adapt to it.
     behind: Option<Model>,
     /// What the strokes of the file are drawn with.
@@ -102,7 +102,35 @@ struct Prepared {
 }
 
 impl Prepared {
-    fn renderer<'a>(&'a self, engine: &'a dyn Engine, job: &'a LineJob<'_>) -> LineRenderer<'a> {
+    /// What the file has beside the lines that a camera sees: the brushes that draw them, and words.
+    fn ink(&self, job: &LineJob<'_>, camera: &Camera) -> Ink {
+        let view = camera.view(job.options.size, self.lines.bounds());
+        Ink {
+            brushes: self.brushes.clone(),
+            lettering: job.lettering.placed(&view, job.options.dpi),
+        }
+    }
+
+    /// A frame of a film: the drawing of what a camera sees, as pixels or as the bytes of a file.
+    pub fn shown(
+        &self,
+        job: &LineJob<'_>,
+        drawing: &Drawing,
+        camera: &Camera,
+    ) -> Result<Shown, Fault> {
+        let ink = self.ink(job, camera);
+        match job.format {
+            LineFormat::Png => line_file::pixels(job, drawing, ink).map(Shown::Pixels),
+            _ => line_file::encode(job, drawing, ink).map(Shown::File),
+        }
+    }
+
+    /// A renderer of its lines.
+    pub fn renderer<'a>(
+        &'a self,
+        engine: &'a dyn Engine,
+        job: &'a LineJob<'_>,
+    ) -> LineRenderer<'a> {
         let renderer = LineRenderer::new(engine, &self.lines);
         match (&self.behind, &job.backdrop) {
             (Some(model), Some(options)) => renderer.with_backdrop(model, options),
@@ -131,6 +159,12 @@ fn draw_lines(
         })
     };
     let drawn = engine.draw_as_step(&picture, progress)?;
+    tell_engine(job, &drawn.engine, progress);
+    Ok(drawn)
+}
+
+/// Tells what of a job is the processor's, where a device was asked for.
+pub fn tell_engine(job: &LineJob<'_>, engine: &str, progress: &Progress) {
     let reported = match job.options.method {
         LineSource::Edges | LineSource::Potrace => None,
         LineSource::Surface => {
@@ -141,14 +175,13 @@ fn draw_lines(
         }
     };
     if let Some(reported) = reported.filter(|_| job.args.drawing.backend == Backend::Gpu) {
-        let text = format!("{} {reported}", drawn.engine);
+        let text = format!("{engine} {reported}");
         progress.suspend(|| message::warn(job.args.drawing.quiet, &text));
     }
-    Ok(drawn)
 }
 
 /// Loads and prepares the scene, and warns about what is ignored.
-fn prepare(job: &LineJob<'_>, progress: &mut Progress) -> Result<Prepared, Fault> {
+pub fn prepare(job: &LineJob<'_>, progress: &mut Progress) -> Result<Prepared, Fault> {
     let external = job.args.drawing.allow_external.as_deref();
     let mut loaded = progress.step("load", || match job.args.built_in() {
         Some(source) => Ok(Loaded::of_smoke(source)),
@@ -156,7 +189,7 @@ fn prepare(job: &LineJob<'_>, progress: &mut Progress) -> Result<Prepared, Fault
     })?;
     let mut inputs = loaded.inputs;
     inputs.extend(job.look.inputs());
-    job.output.refuse_any_of(&inputs)?;
+    job.target.refuse_any_of(&inputs)?;
     let order = Order {
         args: &job.args.drawing.volumes,
         style: &job.look.style.smoke,
@@ -164,7 +197,7 @@ fn prepare(job: &LineJob<'_>, progress: &mut Progress) -> Result<Prepared, Fault
     };
     let of_volumes = idle::of_volumes(&order, loaded.volume.as_ref());
     let (smoke, reported) = volume::step(progress, &order, loaded.volume)?;
-    job.output.refuse_any_of(&reported.inputs)?;
+    job.target.refuse_any_of(&reported.inputs)?;
     job.look
         .apply_id_maps(&mut loaded.scene, &job.limits, external)?;
     let options = LineModelOptions {

@@ -13,7 +13,7 @@ use crate::layers::{self, DebugLayer};
 use crate::lines;
 use crate::look::Look;
 use crate::message;
-use crate::output::print;
+use crate::output::{Output, print};
 use crate::progress::Progress;
 use crate::timings::{DRAW, Timings};
 use crate::viewpoint::{self, Seen};
@@ -71,7 +71,14 @@ fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Frame>, Fault> {
     };
 
     // Draw it, whole or band by band into its file.
-    let drawn = draw_frame((job, &engine), &prepared, &options, &camera, progress)?;
+    let output = job.target.output(0)?;
+    let drawn = draw_frame(
+        (job, &engine, &output),
+        &prepared,
+        &options,
+        &camera,
+        progress,
+    )?;
     let (mut frame, is_written) = match drawn.picture {
         Picture::Whole(frame) => (frame, false),
         Picture::InBands(written) => (written?, true),
@@ -89,7 +96,7 @@ fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Frame>, Fault> {
             PictureFormat::Png => encoder::png(frame.size, &frame.rgba, job.look.is_transparent()),
             PictureFormat::Exr => layers::exr(&mut frame, &prepared.model.object_names()),
         })?;
-        progress.step("write", || job.output.write(&bytes))?;
+        progress.step("write", || output.write(&bytes))?;
     }
     let engine = drawn.engine;
     Ok(Drawn {
@@ -140,7 +147,7 @@ pub fn prepared(
 }
 
 /// Loads and prepares the scene and the smoke in it, and warns about what is ignored.
-fn prepare(job: &Job<'_>, progress: &mut Progress) -> Result<(Subject, Option<Smoke>), Fault> {
+pub fn prepare(job: &Job<'_>, progress: &mut Progress) -> Result<(Subject, Option<Smoke>), Fault> {
     // Load the scene, and refuse to draw over its files.
     let (limits, external) = (
         job.args.drawing.limits.limits(),
@@ -149,7 +156,7 @@ fn prepare(job: &Job<'_>, progress: &mut Progress) -> Result<(Subject, Option<Sm
     let mut loaded = progress.step("load", || job.source.load(&limits, external))?;
     let mut inputs = loaded.inputs;
     inputs.extend(job.look.inputs());
-    job.output.refuse_any_of(&inputs)?;
+    job.target.refuse_any_of(&inputs)?;
 
     // Add the smoke in it.
     let order = Order {
@@ -159,7 +166,7 @@ fn prepare(job: &Job<'_>, progress: &mut Progress) -> Result<(Subject, Option<Sm
     };
     let of_volumes = idle::of_volumes(&order, loaded.volume.as_ref());
     let (smoke, reported) = volume::step(progress, &order, loaded.volume)?;
-    job.output.refuse_any_of(&reported.inputs)?;
+    job.target.refuse_any_of(&reported.inputs)?;
 
     // Prepare the scene for the style.
     job.look
@@ -192,7 +199,7 @@ fn warn_of<'a>(job: &Job<'_>, model: &'a Model, of_smoke: impl Iterator<Item = &
 }
 
 fn draw_frame(
-    (job, engine): (&Job<'_>, &EngineChoice<'_>),
+    (job, engine, output): (&Job<'_>, &EngineChoice<'_>, &Output),
     prepared: &Subject,
     options: &RendererOptions,
     camera: &Camera,
@@ -208,7 +215,7 @@ fn draw_frame(
             return renderer.draw(camera).map(Picture::Whole);
         }
         let keep_alpha = job.look.is_transparent();
-        let written = draw_into(&job.output, &mut renderer, camera, options.size, keep_alpha)?;
+        let written = draw_into(output, &mut renderer, camera, options.size, keep_alpha)?;
         Ok(Picture::InBands(written))
     };
 

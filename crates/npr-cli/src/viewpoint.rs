@@ -17,6 +17,8 @@ pub trait Viewed {
     fn bounds(&self) -> ([f32; 3], [f32; 3]);
     /// A view of all of it, for a frame of width / height `aspect` and a vertical field of view in radians.
     fn framing(&self, aspect: f32, fov_y: f32) -> Camera;
+    /// The same of all that it sweeps where the camera turns about an axis, given by a point on it and its direction.
+    fn framing_around(&self, axis: [[f32; 3]; 2], view: (f32, f32)) -> Camera;
 }
 
 impl Viewed for LineModel {
@@ -30,6 +32,10 @@ impl Viewed for LineModel {
 
     fn framing(&self, aspect: f32, fov_y: f32) -> Camera {
         self.framing(aspect, fov_y)
+    }
+
+    fn framing_around(&self, axis: [[f32; 3]; 2], view: (f32, f32)) -> Camera {
+        self.framing_around(axis, view)
     }
 }
 
@@ -53,6 +59,65 @@ impl Viewed for Seen<'_> {
     fn framing(&self, aspect: f32, fov_y: f32) -> Camera {
         self.model.framing_with(self.smoke, aspect, fov_y)
     }
+
+    fn framing_around(&self, axis: [[f32; 3]; 2], view: (f32, f32)) -> Camera {
+        self.model.framing_around(self.smoke, axis, view)
+    }
+}
+
+/// A camera that turns about an axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Orbit {
+    /// The camera before it turns.
+    camera: Camera,
+    /// A point on the axis.
+    pivot: [f32; 3],
+    /// Its direction.
+    axis: [f32; 3],
+}
+
+impl Orbit {
+    /// A camera that stands still.
+    pub fn still(camera: Camera) -> Self {
+        Self {
+            camera,
+            pivot: camera.target,
+            axis: camera.up,
+        }
+    }
+
+    /// The camera after it has turned by `angle` radians, counter-clockwise as seen from above.
+    pub fn at(&self, angle: f32) -> Camera {
+        self.camera.turned(self.pivot, self.axis, angle)
+    }
+}
+
+/// The camera that the user asked for, turning about the up axis through its target; without one, the scene is framed
+/// so that it stays in the picture all around. A camera of the file has no target: it turns about the middle of the
+/// scene, whose up is +y.
+pub fn orbit(args: &CameraArguments, model: &dyn Viewed, size: Size) -> Result<Orbit, Fault> {
+    let middle = middle(model.bounds());
+    let pivot = args.target.map_or(middle, |target| target.0);
+    let axis = args.up.map_or([0.0, 1.0, 0.0], |up| up.0);
+    let camera = match &args.camera {
+        Some(name) => camera_of_file(name, model.cameras())?,
+        None => placed_camera(
+            args,
+            model.framing_around([pivot, axis], shape(args, size)),
+            middle,
+        )?,
+    };
+    Ok(Orbit {
+        camera,
+        pivot,
+        axis,
+    })
+}
+
+/// Width / height of the frame, and the vertical field of view in radians.
+fn shape(args: &CameraArguments, size: Size) -> (f32, f32) {
+    let fov_y = args.fov.unwrap_or(DEFAULT_FOV_DEG).to_radians();
+    (size.width as f32 / size.height as f32, fov_y)
 }
 
 /// The camera that the user asked for, or one that frames the whole model from three quarters above.
@@ -60,9 +125,8 @@ pub fn camera(args: &CameraArguments, model: &dyn Viewed, size: Size) -> Result<
     match &args.camera {
         Some(name) => camera_of_file(name, model.cameras()),
         None => {
-            let fov_y = args.fov.unwrap_or(DEFAULT_FOV_DEG).to_radians();
-            let framing = model.framing(size.width as f32 / size.height as f32, fov_y);
-            placed_camera(args, framing, middle(model.bounds()))
+            let (aspect, fov_y) = shape(args, size);
+            placed_camera(args, model.framing(aspect, fov_y), middle(model.bounds()))
         }
     }
 }

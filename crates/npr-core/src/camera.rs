@@ -92,6 +92,22 @@ impl Camera {
         }
     }
 
+    /// The camera turned by `angle` radians about an axis through `pivot`, counter-clockwise as seen from where the
+    /// axis points. An angle of 0 gives the same camera, bit for bit.
+    pub fn turned(&self, pivot: [f32; 3], axis: [f32; 3], angle: f32) -> Self {
+        if angle == 0.0 {
+            return *self;
+        }
+        let (pivot, axis) = (Vec3::from(pivot), axis_of(axis));
+        let place = |point: [f32; 3]| pivot + turned_about(axis, Vec3::from(point) - pivot, angle);
+        Self {
+            eye: place(self.eye).to_array(),
+            target: place(self.target).to_array(),
+            up: turned_about(axis, Vec3::from(self.up), angle).to_array(),
+            projection: self.projection,
+        }
+    }
+
     /// Right, up and back axes of the picture, unit length, whatever the input.
     pub fn axes(&self) -> [[f32; 3]; 3] {
         let toward_eye = Vec3::from(self.eye) - Vec3::from(self.target);
@@ -165,6 +181,69 @@ impl Camera {
         let room = (range.1 - range.0).max(range.1.abs() * 1e-3).max(1e-6) * 0.01;
         (range.0 - room, range.1 + room)
     }
+}
+
+/// Slices along the axis, and points on the ring of each, that stand for what turns.
+const SWEPT: [usize; 2] = [64, 32];
+
+/// Rings of points around all that points sweep as they turn about an axis through `pivot`, for framing a view that
+/// turns. What is swept lies within them, up to a share of 0.5 % of its radius.
+///
+/// The points are cut into slices across the axis; each slice has a ring as wide as its farthest point, at its lower
+/// and its upper end. O(points).
+pub fn swept(
+    points: impl Iterator<Item = Vec3> + Clone,
+    pivot: [f32; 3],
+    axis: [f32; 3],
+) -> Vec<[f32; 3]> {
+    // Measure how far the points reach along the axis.
+    let (pivot, axis) = (Vec3::from(pivot), axis_of(axis));
+    let heights = points.clone().map(|point| (point - pivot).dot(axis));
+    let (low, high) = heights.fold((f32::MAX, f32::MIN), |(low, high), height| {
+        (low.min(height), high.max(height))
+    });
+    if low > high {
+        return Vec::new();
+    }
+
+    // Measure how far those of every slice lie from it.
+    let [slices, sides] = SWEPT;
+    let thickness = (high - low) / slices as f32;
+    let mut radii = vec![-1.0_f32; slices];
+    for point in points {
+        let from_pivot = point - pivot;
+        let height = from_pivot.dot(axis);
+        let slice = ((height - low) / thickness.max(f32::MIN_POSITIVE)) as usize;
+        let radius = &mut radii[slice.min(slices - 1)];
+        *radius = radius.max((from_pivot - axis * height).length());
+    }
+
+    // Put a ring round both ends of every slice that holds a point.
+    let (right, back) = axis.any_orthonormal_pair();
+    let mut rings = Vec::with_capacity(slices * sides * 2);
+    let filled = (0..slices).zip(radii).filter(|(_, radius)| *radius >= 0.0);
+    for (slice, radius) in filled {
+        for end in [slice, slice + 1] {
+            let middle = pivot + axis * (low + thickness * end as f32);
+            rings.extend((0..sides).map(|side| {
+                let angle = side as f32 / sides as f32 * std::f32::consts::TAU;
+                let across = right * math::cos(angle) + back * math::sin(angle);
+                (middle + across * radius).to_array()
+            }));
+        }
+    }
+    rings
+}
+
+/// An axis with unit length; up where it has none.
+fn axis_of(axis: [f32; 3]) -> Vec3 {
+    Vec3::from(axis).try_normalize().unwrap_or(Vec3::Y)
+}
+
+/// A vector turned about a unit axis by Rodrigues' formula, counter-clockwise as seen from where the axis points.
+fn turned_about(axis: Vec3, vector: Vec3, angle: f32) -> Vec3 {
+    let (sin, cos) = (math::sin(angle), math::cos(angle));
+    vector * cos + axis.cross(vector) * sin + axis * axis.dot(vector) * (1.0 - cos)
 }
 
 /// The box around points, its lowest and highest corner; a unit box where there are none.

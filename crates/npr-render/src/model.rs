@@ -297,6 +297,19 @@ impl Model {
         Camera::framing_points(points.map(|point| point.to_array()), aspect, fov_y)
     }
 
+    /// A view from three quarters above that the model together with smoke stays within while the camera turns about
+    /// an axis through `pivot`. `fov_y` is in radians. O(vertices).
+    pub fn framing_around(
+        &self,
+        smoke: &Smoke,
+        [pivot, axis]: [[f32; 3]; 2],
+        (aspect, fov_y): (f32, f32),
+    ) -> Camera {
+        let points: Vec<Vec3> = self.posed_points().chain(smoke.reach()).collect();
+        let swept = npr_core::camera::swept(points.iter().copied(), pivot, axis);
+        Camera::framing_points(swept.into_iter(), aspect, fov_y)
+    }
+
     /// The box around the model and smoke; that of one alone where the other has nothing to draw.
     pub fn bounds_with(&self, smoke: &Smoke) -> Bounds {
         if smoke.reach().next().is_none() {

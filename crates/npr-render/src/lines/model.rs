@@ -660,6 +660,21 @@ impl LineModel {
             .map(|point| point.to_array());
         Camera::framing_points(self.points.iter().copied().chain(smoke), aspect, fov_y)
     }
+
+    /// A view from three quarters above that all of it stays within while the camera turns about an axis through
+    /// `pivot`. `fov_y` is in radians. O(points).
+    pub fn framing_around(
+        &self,
+        [pivot, axis]: [[f32; 3]; 2],
+        (aspect, fov_y): (f32, f32),
+    ) -> Camera {
+        let smoke = self.smoke.iter().flat_map(Smoke::reach);
+        let points: Vec<Vec3> = (self.points.iter().copied().map(Vec3::from))
+            .chain(smoke)
+            .collect();
+        let swept = npr_core::camera::swept(points.iter().copied(), pivot, axis);
+        Camera::framing_points(swept.into_iter(), aspect, fov_y)
+    }
 }
 
 /// Notices of lines that a drawing leaves out because nobody could read them, a sentence each.
