@@ -55,11 +55,8 @@ impl Output {
     ) -> Result<(), Fault> {
         match self {
             Self::Standard => print_with(fill),
-            Self::File(path) => {
-                write_atomic(path, |file| fill(file)).map_err(|error: io::Error| {
-                    Fault::from(error).while_doing(format_args!("cannot write {}", quoted(path)))
-                })
-            }
+            Self::File(path) => write_atomic(path, |file| fill(file))
+                .map_err(|error: io::Error| self.cannot_write(error.into())),
         }
     }
 
@@ -69,17 +66,22 @@ impl Output {
         let Self::File(path) = self else {
             return Err(Fault::new(Exit::Usage, "it cannot go to standard output"));
         };
-        write_atomic(path, |file| fill(file.path()))
-            .map_err(|fault| fault.while_doing(format_args!("cannot write {}", quoted(path))))
+        write_atomic(path, |file| fill(file.path())).map_err(|fault| self.cannot_write(fault))
     }
 
     /// An empty file without a name, in the folder of the file, for what is needed until that is written.
-    pub fn scratch(&self) -> Result<std::fs::File, Fault> {
+    pub fn scratch(&self) -> io::Result<std::fs::File> {
         match self {
-            Self::Standard => Ok(tempfile::tempfile()?),
-            Self::File(path) => tempfile::tempfile_in(folder_of(path)).map_err(|error| {
-                Fault::from(error).while_doing(format_args!("cannot write {}", quoted(path)))
-            }),
+            Self::Standard => tempfile::tempfile(),
+            Self::File(path) => tempfile::tempfile_in(folder_of(path)),
+        }
+    }
+
+    /// The fault of writing, with the name of what cannot be written.
+    pub fn cannot_write(&self, fault: Fault) -> Fault {
+        match self {
+            Self::Standard => fault.while_doing("cannot write to standard output"),
+            Self::File(path) => fault.while_doing(format_args!("cannot write {}", quoted(path))),
         }
     }
 }

@@ -13,6 +13,10 @@ use std::time::Duration;
 /// The program, found as the system finds programs.
 const PROGRAM: &str = "ffmpeg";
 
+/// How colours are stored: as brightness and difference of Rec. 709, in the range of television, from sRGB.
+const COLORS: &str = "scale=out_color_matrix=bt709:out_range=tv,\
+                      setparams=colorspace=bt709:color_primaries=bt709:color_trc=iec61966-2-1:range=tv";
+
 /// Most lines of its messages that are told, the last ones.
 const TOLD_LINES: usize = 3;
 
@@ -121,9 +125,7 @@ fn started(film: &Whole<'_>, codec: Codec, path: &Path) -> Result<Child, Fault> 
         .args(["-video_size", &format!("{width}x{height}")])
         .args(["-framerate", &film.fps.to_string(), "-i", "pipe:0", "-an"])
         // Say how colours become brightness, which players otherwise guess by the size.
-        .args(["-vf", "scale=out_color_matrix=bt709:out_range=tv"])
-        .args(["-colorspace", "bt709", "-color_primaries", "bt709"])
-        .args(["-color_trc", "iec61966-2-1", "-color_range", "tv"])
+        .args(["-vf", COLORS])
         .args(codec.arguments(film.keep_alpha))
         // Without its own version and the time, the same frames give the same file.
         .args(["-map_metadata", "-1", "-fflags", "+bitexact"])

@@ -1,10 +1,12 @@
 //! The command `npr` as scripts see it: exit codes, messages, streams and files.
 
+mod animate;
 mod broken_bitmaps;
 mod closing;
 mod colors;
 mod debug_layers;
 mod determinism;
+mod ffmpeg;
 mod files;
 mod id_maps;
 mod idle;
