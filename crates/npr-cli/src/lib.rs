@@ -43,6 +43,7 @@ mod message;
 mod outline;
 mod output;
 mod picture;
+mod pose;
 mod progress;
 mod render;
 mod smoke;

@@ -1,6 +1,7 @@
 //! The command `npr` as scripts see it: exit codes, messages, streams and files.
 
 mod broken_bitmaps;
+mod clips;
 mod closing;
 mod colors;
 mod debug_layers;
