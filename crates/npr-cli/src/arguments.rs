@@ -12,6 +12,7 @@ mod lines;
 mod look;
 mod outline;
 mod point;
+mod pose;
 mod render;
 mod size;
 mod smoke;
@@ -33,6 +34,7 @@ pub use lines::{
 pub use look::LookArguments;
 pub use outline::{Behind, OutlineArguments};
 pub use point::Point;
+pub use pose::PoseArguments;
 pub use render::RenderArguments;
 pub use size::Size;
 pub use smoke::SmokeArguments;

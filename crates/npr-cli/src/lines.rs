@@ -11,6 +11,7 @@ use crate::line_file::{self, Ink};
 use crate::line_job::LineJob;
 use crate::look::Look;
 use crate::message;
+use crate::pose;
 use crate::progress::Progress;
 use crate::reel::Shown;
 use crate::source::Loaded;
@@ -190,6 +191,7 @@ pub fn prepare(job: &LineJob<'_>, progress: &mut Progress) -> Result<Prepared, F
     let mut inputs = loaded.inputs;
     inputs.extend(job.look.inputs());
     job.target.refuse_any_of(&inputs)?;
+    let of_pose = pose::pose(&job.args.drawing.pose, &mut loaded.scene)?;
     let order = Order {
         args: &job.args.drawing.volumes,
         style: &job.look.style.smoke,
@@ -239,7 +241,10 @@ pub fn prepare(job: &LineJob<'_>, progress: &mut Progress) -> Result<Prepared, F
         let options = idle::of_lines(job, facts, !brushes.all.is_empty());
         message::warn_all(
             job.args.drawing.quiet,
-            keys.iter().chain(&options).chain(&of_volumes),
+            keys.iter()
+                .chain(&options)
+                .chain(&of_pose)
+                .chain(&of_volumes),
         );
     });
     Ok(Prepared {

@@ -14,6 +14,7 @@ use crate::lines;
 use crate::look::Look;
 use crate::message;
 use crate::output::{Output, print};
+use crate::pose;
 use crate::progress::Progress;
 use crate::timings::{DRAW, Timings};
 use crate::viewpoint::{self, Seen};
@@ -157,6 +158,7 @@ pub fn prepare(job: &Job<'_>, progress: &mut Progress) -> Result<(Subject, Optio
     let mut inputs = loaded.inputs;
     inputs.extend(job.look.inputs());
     job.target.refuse_any_of(&inputs)?;
+    let of_pose = pose::pose(&job.args.drawing.pose, &mut loaded.scene)?;
 
     // Add the smoke in it.
     let order = Order {
@@ -179,7 +181,7 @@ pub fn prepare(job: &Job<'_>, progress: &mut Progress) -> Result<(Subject, Optio
     progress.suspend(|| {
         warn_of(job, &prepared.model, reported.notices.iter());
         warn_of_idle(&job.look, facts, job.args.drawing.quiet);
-        message::warn_all(job.args.drawing.quiet, &of_volumes);
+        message::warn_all(job.args.drawing.quiet, of_pose.iter().chain(&of_volumes));
     });
     Ok((prepared, smoke))
 }

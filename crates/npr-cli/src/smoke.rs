@@ -8,6 +8,7 @@ use crate::idle;
 use crate::job;
 use crate::look::Look;
 use crate::message;
+use crate::pose;
 use crate::progress::Progress;
 use crate::reel::{Encoding, Reel, Stills};
 use crate::render;
@@ -126,6 +127,8 @@ fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Vec<PassTime>>, 
         // Volumes have no cameras, so fail before the smoke is computed.
         return Err(unknown_camera(name, &[]));
     }
+    let mut nothing = npr_scene::Scene::default();
+    let of_pose = pose::pose(&job.args.drawing.pose, &mut nothing)?;
     let limits = job.args.drawing.limits.limits();
     let source = match &job.source {
         Source::File(path) => VolumeSource::of(path),
@@ -152,16 +155,11 @@ fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Vec<PassTime>>, 
     if let Some((smoke, reported)) = more {
         film.join(&smoke, reported);
     }
-    let prepared = render::prepared(
-        &npr_scene::Scene::default(),
-        &job.look.style,
-        &limits,
-        None,
-        progress,
-    )?;
+    let prepared = render::prepared(&nothing, &job.look.style, &limits, None, progress)?;
     let target = target(job, &film)?;
-    let of_volumes = idle::of_volumes(&order, Some(&source));
-    tell_notices(job, &source, &film, &of_volumes, progress);
+    let mut of_options = idle::of_volumes(&order, Some(&source));
+    of_options.extend(of_pose);
+    tell_notices(job, &source, &film, &of_options, progress);
     let camera = camera(job, &prepared, &film)?;
     draw_film((job, &engine), &prepared, &film, &target, &camera, progress)
 }
@@ -189,7 +187,7 @@ fn tell_notices(
     job: &Job<'_>,
     source: &VolumeSource,
     film: &Film,
-    of_volumes: &[String],
+    of_options: &[String],
     progress: &Progress,
 ) {
     progress.suspend(|| {
@@ -198,7 +196,7 @@ fn tell_notices(
         let facts = facts_of(&npr_scene::Scene::default(), true);
         render::warn_of_idle(&job.look, facts, quiet);
         let of_smoke = idle::of_smoke(job.args, source, film.frames.len());
-        message::warn_all(quiet, of_volumes.iter().chain(&of_smoke));
+        message::warn_all(quiet, of_options.iter().chain(&of_smoke));
     });
 }
 

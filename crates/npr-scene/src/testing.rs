@@ -26,6 +26,33 @@ fn padded(bytes: &[u8], filler: u8) -> Vec<u8> {
     bytes
 }
 
+/// A binary glTF file of two triangles, a body and a wing on it, with two clips of two seconds: `Beat` turns the wing
+/// about x from a quarter turn back to where it rests, `Stretch` makes it three times as long, smoothly.
+pub fn wing() -> Vec<u8> {
+    let positions = [0f32, 0., 0., 1., 0., 0., 0., 1., 0.];
+    let times = [0f32, 2.];
+    let half = std::f32::consts::FRAC_1_SQRT_2;
+    let turns = [half, 0., 0., half, 0., 0., 0., 1.];
+    let flat = [0f32; 3];
+    let stretches = [flat, [1., 2., 1.], flat, flat, [1., 3., 1.], flat];
+    let numbers = positions.iter().chain(&times).chain(&turns);
+    let numbers = numbers.chain(stretches.as_flattened());
+    let bin: Vec<u8> = numbers.flat_map(|number| number.to_le_bytes()).collect();
+    let json = r#"{"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],
+        "nodes":[{"name":"body","mesh":0,"children":[1]},{"name":"wing","mesh":0,"translation":[0,1,0]}],
+        "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+        "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},
+        {"bufferView":0,"byteOffset":36,"componentType":5126,"count":2,"type":"SCALAR"},
+        {"bufferView":0,"byteOffset":44,"componentType":5126,"count":2,"type":"VEC4"},
+        {"bufferView":0,"byteOffset":76,"componentType":5126,"count":6,"type":"VEC3"}],
+        "bufferViews":[{"buffer":0,"byteLength":148}],"buffers":[{"byteLength":148}],
+        "animations":[{"name":"Beat","samplers":[{"input":1,"output":2}],
+        "channels":[{"sampler":0,"target":{"node":1,"path":"rotation"}}]},
+        {"name":"Stretch","samplers":[{"input":1,"output":3,"interpolation":"CUBICSPLINE"}],
+        "channels":[{"sampler":0,"target":{"node":1,"path":"scale"}}]}]}"#;
+    glb(json, &bin)
+}
+
 /// A wavy sheet in the xz plane, as raw lists that every format can be written from.
 pub struct Sheet {
     /// Positions, row by row.

@@ -284,6 +284,36 @@ const DRAWINGS: &[Case] = &[
         &["--volume", "puff@2,0,1*0.5"],
         Acts,
     ),
+    (
+        &["render", "wing.glb", "-o", "a.png"],
+        &["--clip", "Beat"],
+        Acts,
+    ),
+    (
+        &["lines", "wing.glb", "-o", "a.svg"],
+        &["--clip", "1"],
+        Acts,
+    ),
+    (
+        &["render", "wing.glb", "-o", "a.png"],
+        &["--time", "0.5"],
+        Acts,
+    ),
+    (
+        &["lines", "wing.glb", "-o", "a.svg", "--clip", "Beat"],
+        &["--time", "0.5"],
+        Acts,
+    ),
+    (
+        &["render", "scene.obj", "-o", "a.png"],
+        &["--time", "0.5"],
+        Told("--time is ignored: "),
+    ),
+    (
+        &["lines", "scene.obj", "-o", "a.svg"],
+        &["--time", "0.5"],
+        Told("--time is ignored: "),
+    ),
 ];
 
 /// A film of one frame of the box, as pictures and as line drawings.
@@ -385,6 +415,7 @@ const SMOKES: &[Case] = &[
     (PUFF, &["--frames", "3"], Acts),
     (PUFF, &["--grid", "8x8x9"], Acts),
     (PUFF, &["--step", "2"], Told("--step is ignored: ")),
+    (PUFF, &["--time", "1"], Told("--time is ignored: ")),
     (PUFF, &["--density", "x"], Told("--density is ignored: ")),
     (
         PUFF,
@@ -573,6 +604,7 @@ fn without<'a>(line: &[&'a str], more: &[&str]) -> Vec<&'a str> {
 fn options_of_drawings_act_or_are_told() {
     let place = Workplace::new();
     place.put("scene.obj", BOX);
+    place.put("wing.glb", &npr_scene::testing::wing());
     run_all(&place, DRAWINGS, &SMALL);
 }
 

@@ -2,6 +2,7 @@
 
 mod animate;
 mod broken_bitmaps;
+mod clips;
 mod closing;
 mod colors;
 mod debug_layers;

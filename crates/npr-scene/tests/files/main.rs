@@ -1,5 +1,6 @@
 //! Files of every format: sound, odd, damaged, and those beside the checkout.
 
+mod clips;
 mod gltf;
 mod lines;
 mod malformed;
