@@ -1,7 +1,8 @@
 //! `npr animate`: draws films of a scene.
 
 use crate::arguments::{
-    AnimateArguments, Frames, LineFormat, LinesArguments, LookArguments, RenderArguments,
+    AnimateArguments, DrawingArguments, Frames, LineFormat, LinesArguments, LookArguments,
+    RenderArguments,
 };
 use crate::dump::dump_style;
 use crate::ending::has_ending;
@@ -12,20 +13,23 @@ use crate::idle;
 use crate::job::{Job, PictureFormat, film_path};
 use crate::line_file;
 use crate::line_job::LineJob;
-use crate::lines;
+use crate::lines::{self, Prepared};
 use crate::message::{self, quoted};
 use crate::output::Output;
+use crate::playing::{Playing, Stage};
+use crate::pose;
 use crate::progress::Progress;
-use crate::reel::{Codec, Encoding, FilmFormat, Reel, Stills, Whole, check_rate};
+use crate::reel::{Codec, Encoding, FilmFormat, Reel, Stills, Whole, check_frames, check_rate};
 use crate::render;
-use crate::screening::{Screening, screened};
+use crate::screening::{Screening, Take, Unfit, screened};
 use crate::source::Source;
 use crate::target::Target;
 use crate::timings::Timings;
 use crate::viewpoint::{self, Orbit, Seen, Viewed};
+use npr_core::camera::Camera;
 use npr_gpu::engine::{Engine, PassTime};
-use npr_render::{RenderError, RendererOptions, Shot, Smoke};
-use std::cell::RefCell;
+use npr_render::{LineRenderer, RendererOptions, Shot, Smoke};
+use npr_scene::Scene;
 use std::io::Write;
 use std::path::Path;
 
@@ -35,14 +39,14 @@ pub fn animate(args: &AnimateArguments) -> Result<(), Fault> {
         return dump_style(&args.look(), &args.drawing);
     }
     let film = FilmJob::resolve(args)?;
-    if film.numbers.is_empty() {
-        // All frames are there.
-        return Ok(());
-    }
     let mut progress = Progress::new(args.drawing.quiet);
     let drawn = match film.lines {
         Some(format) => draw_lines(&film, format, &mut progress)?,
         None => draw_frames(&film, &mut progress)?,
+    };
+    let Some(drawn) = drawn else {
+        // All frames are there.
+        return Ok(());
     };
     let steps = progress.finish();
     if let Some(form) = args.drawing.timings {
@@ -87,11 +91,18 @@ impl AnimateArguments {
 struct FilmJob<'a> {
     args: &'a AnimateArguments,
     source: Source,
-    plan: FilmPlan,
+    /// Where it goes; the numbers of its frames are not known yet.
     target: Target,
     format: Format,
     /// The format of its line drawings, PNG for those that become pixels; none where frames are pictures.
     lines: Option<LineFormat>,
+}
+
+/// The frames of a film of a scene, and the clip that plays in it.
+struct Frameset {
+    plan: FilmPlan,
+    playing: Option<Playing>,
+    target: Target,
     /// The numbers of the frames that are drawn, in rising order.
     numbers: Vec<u32>,
 }
@@ -147,23 +158,18 @@ impl Format {
 
 impl<'a> FilmJob<'a> {
     fn resolve(args: &'a AnimateArguments) -> Result<Self, Fault> {
-        // Find the frames of the film, and the files that they go to.
+        // Find the files that the film goes to.
         let source = Source::of(args.scene.as_deref().unwrap_or(Path::new("-")));
-        let plan = FilmPlan::new(&args.film)?;
         let path = film_path(args.output.as_deref(), &source)?;
         let format = Format::of(&path)?;
-        let Frames { first, last } = plan.frames;
         let target = match format {
             Format::Whole(_) if path.to_string_lossy().contains('#') => {
                 let message = format!("{} holds all frames: its name takes no #", quoted(&path));
                 return Err(Fault::new(Exit::Usage, message));
             }
             Format::Whole(_) => Target::One(Output::of(&path)?),
-            _ => Target::of(&path)?.over(first, last)?,
+            _ => Target::of(&path)?,
         };
-
-        // Leave out those that are there.
-        let is_wanted = |number: &u32| !args.film.resume || !target.is_there(*number);
         if args.film.resume && matches!(target, Target::One(_)) {
             let message = format!(
                 "--resume goes on with numbered files, such as frame_####.png, but {} is one",
@@ -171,39 +177,60 @@ impl<'a> FilmJob<'a> {
             );
             return Err(Fault::new(Exit::Usage, message));
         }
+        if let Some(frames) = args.film.frames {
+            check_frames(frames)?;
+        }
         Ok(Self {
             args,
             source,
-            plan,
             format,
             lines: format.lines(args.lines_only)?,
+            target,
+        })
+    }
+
+    /// The frames of a film of a scene that was loaded.
+    fn frames(&self, scene: &Scene) -> Result<Frameset, Fault> {
+        let film = &self.args.film;
+        let playing = Playing::of(&self.args.drawing, scene, film.fps)?;
+        let plan = FilmPlan::new(film, playing.as_ref().map(Playing::duration_s))?;
+        let Frames { first, last } = plan.frames;
+        let target = match self.format {
+            Format::Whole(_) => self.target.clone(),
+            _ => self.target.clone().over(first, last)?,
+        };
+        // Leave out those that are there.
+        let is_wanted = |number: &u32| !film.resume || !target.is_there(*number);
+        Ok(Frameset {
+            plan,
+            playing,
             numbers: (first..=last).filter(is_wanted).collect(),
             target,
         })
     }
 
-    /// The files of the film, of `size` pixels where they are pictures, with a name for every object of layers.
+    /// The files of the film, of `size` pixels where they are pictures.
     fn reel<'b>(
-        &'b self,
-        size: [u32; 2],
-        keep_alpha: bool,
+        &self,
+        frames: &'b Frameset,
+        (size, keep_alpha): ([u32; 2], bool),
         encoding: Encoding<'b>,
-    ) -> Result<Reel<'b>, Fault> {
-        let (Format::Whole(format), Target::One(output)) = (self.format, &self.target) else {
-            return Ok(Reel::Stills(Stills {
-                target: &self.target,
-                numbers: self.numbers.clone(),
+    ) -> Reel<'b> {
+        match (self.format, &frames.target) {
+            (Format::Whole(format), Target::One(output)) => Reel::Whole(Whole {
+                output,
+                format,
+                size,
+                count: frames.numbers.len() as u32,
+                fps: self.args.film.fps,
+                keep_alpha,
+            }),
+            (_, target) => Reel::Stills(Stills {
+                target,
+                numbers: frames.numbers.clone(),
                 encoding,
-            }));
-        };
-        Ok(Reel::Whole(Whole {
-            output,
-            format,
-            size,
-            count: self.numbers.len() as u32,
-            fps: self.args.film.fps,
-            keep_alpha,
-        }))
+            }),
+        }
     }
 
     /// Refuses what the format of the film cannot hold, before there is any work.
@@ -215,43 +242,81 @@ impl<'a> FilmJob<'a> {
         }
     }
 
-    /// The way of the camera, and the view of every frame.
-    fn orbit(&self, seen: &dyn Viewed) -> Result<Orbit, Fault> {
+    /// The way of the camera.
+    fn orbit(&self, plan: &FilmPlan, seen: &dyn Viewed) -> Result<Orbit, Fault> {
         let (camera, size) = (&self.args.drawing.camera, self.args.drawing.size);
-        match self.plan.turn {
+        match plan.turn {
             Some(_) => viewpoint::orbit(camera, seen, size),
             None => viewpoint::camera(camera, seen, size).map(Orbit::still),
         }
     }
 
-    fn tell_idle(&self, progress: &Progress) {
-        let is_timed = matches!(self.format, Format::Whole(_));
+    /// Whether the camera is one of the file, which a clip may move.
+    fn has_moving_camera(&self) -> bool {
+        self.args.drawing.camera.camera.is_some()
+    }
+
+    /// Warns of options that have no effect in the frames of the film.
+    fn tell_idle(&self, frames: &Frameset, progress: &Progress) {
+        let is_timed = matches!(self.format, Format::Whole(_)) || frames.playing.is_some();
         let notices = idle::of_animate(self.args, self.lines.is_some(), is_timed);
         progress.suspend(|| message::warn_all(self.args.drawing.quiet, notices));
     }
 }
 
-/// Draws a film of pictures.
-fn draw_frames(film: &FilmJob<'_>, progress: &mut Progress) -> Result<Drawn<Vec<PassTime>>, Fault> {
-    // Load the scene, and place the camera.
+impl Frameset {
+    /// Poses a scene that was loaded as its first frame that is drawn shows it, and gives what there is to warn of.
+    fn pose(&self, args: &DrawingArguments, scene: &mut Scene) -> Result<Vec<String>, Fault> {
+        let (Some(playing), Some(first)) = (&self.playing, self.numbers.first()) else {
+            return pose::pose(&args.pose, scene);
+        };
+        let (posed, warning) = playing.loaded_at(*first);
+        *scene = posed;
+        Ok(warning.into_iter().collect())
+    }
+}
+
+/// Draws a film of pictures; gives nothing where all of its frames are there.
+fn draw_frames(
+    film: &FilmJob<'_>,
+    progress: &mut Progress,
+) -> Result<Option<Drawn<Vec<PassTime>>>, Fault> {
+    // Load the scene, and find out which frames it has.
     let args = film.args.of_picture();
     let format = match film.format {
         Format::Pictures(format) => format,
         _ => PictureFormat::Png,
     };
-    let job = Job::drawn_into(&args, film.source.clone(), film.target.clone(), format)?;
+    let mut job = Job::drawn_into(&args, film.source.clone(), film.target.clone(), format)?;
     let keep_alpha = job.look.is_transparent();
     film.check(job.options.size, keep_alpha)?;
     let engine = EngineChoice::begin(&args.drawing);
-    let (prepared, smoke) = render::prepare(&job, progress)?;
-    film.tell_idle(progress);
+    let mut loaded = render::load(&job, progress)?;
+    let frames = film.frames(&loaded.scene)?;
+    if frames.numbers.is_empty() {
+        return Ok(None);
+    }
+    job.target = frames.target.clone();
+
+    // Prepare it, and place the camera.
+    let of_pose = frames.pose(&args.drawing, &mut loaded.scene)?;
+    let (prepared, smoke) = render::prepare(&job, loaded, &of_pose, progress)?;
+    film.tell_idle(&frames, progress);
+    let stage = frames
+        .playing
+        .as_ref()
+        .map(|playing| playing.stage(smoke.as_ref()));
     let none = Smoke::default();
-    let orbit = film.orbit(&Seen {
+    let seen = Seen {
         model: &prepared.model,
         smoke: smoke.as_ref().unwrap_or(&none),
-    })?;
+    };
+    let orbit = match &stage {
+        Some(stage) => film.orbit(&frames.plan, &stage.with_cameras(prepared.model.cameras()))?,
+        None => film.orbit(&frames.plan, &seen)?,
+    };
     let options = RendererOptions {
-        smoke,
+        smoke: smoke.clone(),
         ..job.options.clone()
     };
 
@@ -260,68 +325,111 @@ fn draw_frames(film: &FilmJob<'_>, progress: &mut Progress) -> Result<Drawn<Vec<
         PictureFormat::Png => Encoding::Png { keep_alpha },
         PictureFormat::Exr => Encoding::Exr(prepared.model.object_names()),
     };
-    let reel = film.reel(options.size, keep_alpha, encoding)?;
-    let cameras = film
-        .numbers
-        .iter()
-        .map(|number| orbit.at(film.plan.angle(*number)));
-    let quiet = args.drawing.quiet;
-    screened(reel, quiet, progress, |screening, progress| {
-        let pictures = |engine: &dyn Engine| {
-            let renderer = prepared.renderer(engine, &job.look.style, &options)?;
-            screening.show_all(renderer, cameras.clone().map(Shot::from))
+    let reel = film.reel(&frames, (options.size, keep_alpha), encoding);
+    let style = &job.look.style;
+    let still = |screening: &Screening, engine: &dyn Engine| {
+        let angles = frames
+            .numbers
+            .iter()
+            .map(|number| frames.plan.angle(*number));
+        let shots = angles.map(|angle| Shot::from(orbit.at(angle)));
+        screening.show_all(prepared.renderer(engine, style, &options)?, shots)
+    };
+    let limits = args.drawing.limits.limits();
+    let external = args.drawing.allow_external.as_deref();
+    let played = |(playing, stage): (&Playing, &Stage), number: u32, engine: &dyn Engine| {
+        let (scene, _) = playing.scene_at(number, &job.look, (&limits, external))?;
+        let subject = render::subject(&scene, style, &limits, job.cache.as_deref())?;
+        let orbit = match film.has_moving_camera() {
+            true => film.orbit(&frames.plan, &stage.with_cameras(subject.model.cameras()))?,
+            false => orbit,
+        };
+        let mut renderer = subject.renderer(engine, style, &options)?;
+        let frame = renderer.draw(&orbit.at(frames.plan.angle(number)))?;
+        Ok(Take::from(frame))
+    };
+    let drawn = screened(reel, args.drawing.quiet, progress, |screening, progress| {
+        let pictures = |engine: &dyn Engine| match frames.playing.as_ref().zip(stage.as_ref()) {
+            Some(clip) => {
+                screening.show_each(&frames.numbers, |number| played(clip, number, engine))
+            }
+            None => still(screening, engine),
         };
         engine.draw_as_step(&pictures, progress)
-    })
+    })?;
+    Ok(Some(drawn))
 }
 
-/// Draws a film of line drawings.
+/// Draws a film of line drawings; gives nothing where all of its frames are there.
 fn draw_lines(
     film: &FilmJob<'_>,
     format: LineFormat,
     progress: &mut Progress,
-) -> Result<Drawn<Vec<PassTime>>, Fault> {
-    // Load the scene, and place the camera.
+) -> Result<Option<Drawn<Vec<PassTime>>>, Fault> {
+    // Load the scene, and find out which frames it has.
     let args = film.args.of_lines(format);
-    let job = LineJob::drawn_into(&args, film.source.clone(), film.target.clone(), format)?;
+    let mut job = LineJob::drawn_into(&args, film.source.clone(), film.target.clone(), format)?;
     let keep_alpha = job.look.is_transparent();
     film.check(job.options.size, keep_alpha)?;
     line_file::check_memory(&job)?;
     let engine = EngineChoice::begin(&args.drawing);
-    let model = lines::prepare(&job, progress)?;
-    film.tell_idle(progress);
-    let orbit = film.orbit(&model.lines)?;
+    let mut loaded = lines::load(&job, progress)?;
+    let frames = film.frames(&loaded.scene)?;
+    if frames.numbers.is_empty() {
+        return Ok(None);
+    }
+    job.target = frames.target.clone();
+
+    // Prepare it, and place the camera.
+    let of_pose = frames.pose(&args.drawing, &mut loaded.scene)?;
+    let (prepared, smoke) = lines::prepare(&job, loaded, &of_pose, progress)?;
+    film.tell_idle(&frames, progress);
+    let stage = frames
+        .playing
+        .as_ref()
+        .map(|playing| playing.stage(smoke.as_ref()));
+    let orbit = match &stage {
+        Some(stage) => film.orbit(&frames.plan, &stage.with_cameras(prepared.lines.cameras()))?,
+        None => film.orbit(&frames.plan, &prepared.lines)?,
+    };
 
     // Draw all frames.
-    let reel = film.reel(job.options.size, keep_alpha, Encoding::Png { keep_alpha })?;
-    let failed = RefCell::new(None);
-    let show = |screening: &Screening, engine: &dyn Engine| -> Result<(), RenderError> {
-        let mut renderer = model.renderer(engine, &job);
-        for number in film.numbers.iter().skip(screening.done()) {
-            let camera = orbit.at(film.plan.angle(*number));
-            let mut drawing = renderer.draw(&camera, &job.look.style, &job.options)?;
-            let notices = std::mem::take(&mut drawing.notices);
-            let shown = match model.shown(&job, &drawing, &camera) {
-                Ok(shown) => shown,
-                Err(fault) => {
-                    *failed.borrow_mut() = Some(fault);
-                    break;
-                }
-            };
-            if !screening.show(shown, notices, renderer.times()) {
-                break;
-            }
-        }
-        Ok(())
+    let encoding = Encoding::Png { keep_alpha };
+    let reel = film.reel(&frames, (job.options.size, keep_alpha), encoding);
+    let (limits, external) = (&job.limits, args.drawing.allow_external.as_deref());
+    let drawn_by = |prepared: &Prepared, renderer: &mut LineRenderer<'_>, camera: &Camera| {
+        let mut drawing = renderer.draw(camera, &job.look.style, &job.options)?;
+        Ok::<_, Unfit>(Take {
+            notices: std::mem::take(&mut drawing.notices),
+            times: renderer.times().to_vec(),
+            shown: prepared.shown(&job, &drawing, camera)?,
+        })
     };
-    let quiet = args.drawing.quiet;
-    let drawn = screened(reel, quiet, progress, |screening, progress| {
-        let drawn = engine.draw_as_step(&|engine| show(screening, engine), progress)?;
-        match failed.take() {
-            Some(fault) => Err(fault),
-            None => Ok(drawn),
-        }
+    let played = |(playing, stage): (&Playing, &Stage), number: u32, engine: &dyn Engine| {
+        let (scene, _) = playing.scene_at(number, &job.look, (limits, external))?;
+        let prepared = lines::prepared(&job, &scene, smoke.clone())?;
+        let orbit = match film.has_moving_camera() {
+            true => film.orbit(&frames.plan, &stage.with_cameras(prepared.lines.cameras()))?,
+            false => orbit,
+        };
+        let camera = orbit.at(frames.plan.angle(number));
+        drawn_by(&prepared, &mut prepared.renderer(engine, &job), &camera)
+    };
+    let drawn = screened(reel, args.drawing.quiet, progress, |screening, progress| {
+        let drawings = |engine: &dyn Engine| match frames.playing.as_ref().zip(stage.as_ref()) {
+            Some(clip) => {
+                screening.show_each(&frames.numbers, |number| played(clip, number, engine))
+            }
+            None => {
+                let mut renderer = prepared.renderer(engine, &job);
+                screening.show_each(&frames.numbers, |number| {
+                    let camera = orbit.at(frames.plan.angle(number));
+                    drawn_by(&prepared, &mut renderer, &camera)
+                })
+            }
+        };
+        engine.draw_as_step(&drawings, progress)
     })?;
     lines::tell_engine(&job, &drawn.engine, progress);
-    Ok(drawn)
+    Ok(Some(drawn))
 }

@@ -28,19 +28,21 @@ pub enum Turn {
 }
 
 impl FilmPlan {
-    /// The film that the arguments ask for.
-    pub fn new(args: &FilmArguments) -> Result<Self, Fault> {
+    /// The film that the arguments ask for; `clip_s` is how long the clip that plays is, in seconds, none where no clip
+    /// plays.
+    pub fn new(args: &FilmArguments, clip_s: Option<f32>) -> Result<Self, Fault> {
         // Refuse a film in which nothing moves.
-        if !args.turntable && args.orbit.is_none() {
-            let message =
-                "nothing moves: say --turntable or --orbit DEG, or draw a still with npr render";
+        if !args.turntable && args.orbit.is_none() && clip_s.is_none() {
+            let message = "nothing moves: no clip plays; say --turntable or --orbit DEG, or draw a still with npr render";
             return Err(Fault::new(Exit::Usage, message));
         }
 
         // Count its frames.
-        let seconds = |seconds: f64| (seconds * f64::from(args.fps)).round().max(1.0) as u32;
-        let usual = args.turntable.then(|| seconds(TURN_SECONDS));
-        let whole = args.length.or(usual).map(|length| Frames {
+        let turn_s = args.turntable.then_some(TURN_SECONDS);
+        let whole_s = clip_s.map(f64::from).or(turn_s);
+        let count = |seconds: f64| (seconds * f64::from(args.fps)).round().max(1.0) as u32;
+        let length = args.length.or(whole_s.map(count));
+        let whole = length.map(|length| Frames {
             first: 0,
             last: length - 1,
         });
@@ -50,13 +52,13 @@ impl FilmPlan {
         })?;
         check_frames(frames)?;
         let turn = match args.orbit {
-            Some(degrees) => Turn::ByDegrees(degrees),
-            None => Turn::Once(args.length.unwrap_or(frames.last - frames.first + 1)),
+            Some(degrees) => Some(Turn::ByDegrees(degrees)),
+            None => args.turntable.then(|| {
+                let drawn = || frames.last - frames.first + 1;
+                Turn::Once(args.length.unwrap_or_else(drawn))
+            }),
         };
-        Ok(Self {
-            frames,
-            turn: Some(turn),
-        })
+        Ok(Self { frames, turn })
     }
 
     /// The angle, in radians, that the camera has turned by in a frame.
@@ -86,7 +88,7 @@ mod tests {
     }
 
     fn angles(args: &FilmArguments) -> Vec<f32> {
-        let plan = FilmPlan::new(args).expect("a film");
+        let plan = FilmPlan::new(args, None).expect("a film");
         let Frames { first, last } = plan.frames;
         (first..=last).map(|frame| plan.angle(frame)).collect()
     }
@@ -101,7 +103,7 @@ mod tests {
                 .windows(2)
                 .all(|pair| (pair[1] - pair[0] - step).abs() < 1e-5)
         );
-        let plan = FilmPlan::new(&args()).expect("a film");
+        let plan = FilmPlan::new(&args(), None).expect("a film");
         assert_eq!((plan.angle(0), plan.angle(120)), (0.0, 0.0));
     }
 
@@ -136,7 +138,7 @@ mod tests {
             .collect();
         assert_eq!(degrees, [0.0, 90.0, 180.0, 270.0, 0.0]);
         assert_eq!(angles(&orbit(frames, -90.0))[1].to_degrees(), 270.0);
-        let fault = FilmPlan::new(&orbit(None, 1.0)).expect_err("no length");
+        let fault = FilmPlan::new(&orbit(None, 1.0), None).expect_err("no length");
         assert!(fault.message.contains("--length"));
     }
 
@@ -146,7 +148,7 @@ mod tests {
             turntable: false,
             ..args()
         };
-        let fault = FilmPlan::new(&still).expect_err("a still");
+        let fault = FilmPlan::new(&still, None).expect_err("a still");
         assert!(fault.message.starts_with("nothing moves"));
         let frames = Some(Frames {
             first: 0,
@@ -154,8 +156,27 @@ mod tests {
         });
         let endless = FilmArguments { frames, ..args() };
         assert_eq!(
-            FilmPlan::new(&endless).map_err(|fault| fault.exit),
+            FilmPlan::new(&endless, None).map_err(|fault| fault.exit),
             Err(Exit::Limit)
         );
+    }
+
+    #[test]
+    fn a_clip_plays_once_and_a_turntable_turns_once_in_it() {
+        let film = |turntable, length| FilmArguments {
+            turntable,
+            length,
+            ..args()
+        };
+        let plan = |args| FilmPlan::new(&args, Some(1.01)).expect("a film");
+        let still = plan(film(false, None));
+        assert_eq!((still.frames.first, still.frames.last), (0, 23));
+        assert_eq!(still.angle(7), 0.0);
+        let turned = plan(film(true, None));
+        assert_eq!(
+            (turned.frames.last, turned.turn),
+            (23, Some(Turn::Once(24)))
+        );
+        assert_eq!(plan(film(false, Some(48))).frames.last, 47);
     }
 }

@@ -214,7 +214,7 @@ struct Animate<'a> {
     args: &'a AnimateArguments,
     /// Whether frames are line drawings.
     draws_lines: bool,
-    /// Whether the film is one file, which says how fast it plays.
+    /// Whether a clip plays, or the film is one file, which says how fast it does.
     is_timed: bool,
 }
 
@@ -233,14 +233,8 @@ fn animate_entries<'a>() -> Vec<Entry<Animate<'a>>> {
         entry(
             "--fps",
             |c| c.args.film.fps != DEFAULT_FPS,
-            |c| !c.is_timed && (c.args.film.orbit.is_some() || c.args.film.length.is_some()),
-            "every file holds one frame",
-        ),
-        entry(
-            "--fps",
-            |c| c.args.film.fps != DEFAULT_FPS,
-            |c| !c.is_timed && c.args.film.frames.is_some(),
-            "every file holds one frame",
+            |c| !c.is_timed && (c.args.film.frames.is_some() || c.args.film.length.is_some()),
+            "every file holds one frame, and no clip plays",
         ),
         entry(
             "--length",

@@ -45,6 +45,7 @@ mod message;
 mod outline;
 mod output;
 mod picture;
+mod playing;
 mod pose;
 mod progress;
 mod reel;

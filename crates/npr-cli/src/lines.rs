@@ -23,8 +23,9 @@ use npr_core::geometry::Part;
 use npr_drawing::artwork::StrokeBrushes;
 use npr_gpu::engine::{Engine, PassTime};
 use npr_render::{
-    Drawing, Kind, LineModel, LineModelOptions, LineRenderer, LineSource, Model, facts_of,
+    Drawing, Kind, LineModel, LineModelOptions, LineRenderer, LineSource, Model, Smoke, facts_of,
 };
+use npr_scene::Scene;
 use npr_stylesheet::Background;
 use std::io::Write;
 
@@ -77,7 +78,9 @@ pub fn lines_of_picture(args: &RenderArguments) -> Result<(), Fault> {
 fn draw(job: &LineJob<'_>, progress: &mut Progress) -> Result<Drawn<LineFrame>, Fault> {
     line_file::check_memory(job)?;
     let engine = EngineChoice::begin(&job.args.drawing);
-    let model = prepare(job, progress)?;
+    let mut loaded = load(job, progress)?;
+    let of_pose = pose::pose(&job.args.drawing.pose, &mut loaded.scene)?;
+    let (model, _) = prepare(job, loaded, &of_pose, progress)?;
     let lines = &model.lines;
     let camera = viewpoint::camera(&job.args.drawing.camera, lines, job.args.drawing.size)?;
     let drawn = draw_lines((job, &engine), &model, &camera, progress)?;
@@ -181,17 +184,27 @@ pub fn tell_engine(job: &LineJob<'_>, engine: &str, progress: &Progress) {
     }
 }
 
-/// Loads and prepares the scene, and warns about what is ignored.
-pub fn prepare(job: &LineJob<'_>, progress: &mut Progress) -> Result<Prepared, Fault> {
+/// Loads the scene of a job.
+pub fn load(job: &LineJob<'_>, progress: &mut Progress) -> Result<Loaded, Fault> {
     let external = job.args.drawing.allow_external.as_deref();
-    let mut loaded = progress.step("load", || match job.args.built_in() {
+    progress.step("load", || match job.args.built_in() {
         Some(source) => Ok(Loaded::of_smoke(source)),
         None => job.source.load(&job.limits, external),
-    })?;
+    })
+}
+
+/// Prepares the scene, as it is posed, and the smoke in it, and warns about what is ignored: of its pose, `of_pose`.
+pub fn prepare(
+    job: &LineJob<'_>,
+    mut loaded: Loaded,
+    of_pose: &[String],
+    progress: &mut Progress,
+) -> Result<(Prepared, Option<Smoke>), Fault> {
+    // Refuse to draw over its files, and add the smoke in it.
+    let external = job.args.drawing.allow_external.as_deref();
     let mut inputs = loaded.inputs;
     inputs.extend(job.look.inputs());
     job.target.refuse_any_of(&inputs)?;
-    let of_pose = pose::pose(&job.args.drawing.pose, &mut loaded.scene)?;
     let order = Order {
         args: &job.args.drawing.volumes,
         style: &job.look.style.smoke,
@@ -200,56 +213,56 @@ pub fn prepare(job: &LineJob<'_>, progress: &mut Progress) -> Result<Prepared, F
     let of_volumes = idle::of_volumes(&order, loaded.volume.as_ref());
     let (smoke, reported) = volume::step(progress, &order, loaded.volume)?;
     job.target.refuse_any_of(&reported.inputs)?;
+
+    // Prepare the scene for the style.
     job.look
         .apply_id_maps(&mut loaded.scene, &job.limits, external)?;
+    let facts = facts_of(&loaded.scene, smoke.is_some());
+    let prepared = progress.step("prepare", || prepared(job, &loaded.scene, smoke.clone()))?;
+
+    // Warn about what was mended, and about keys and options that have no effect.
+    progress.suspend(|| {
+        warn_of(job, &prepared.lines, reported.notices.iter());
+        let keys = job.look.notices(&job.occasion(facts));
+        let options = idle::of_lines(job, facts, !prepared.brushes.all.is_empty());
+        message::warn_all(
+            job.args.drawing.quiet,
+            keys.iter()
+                .chain(&options)
+                .chain(of_pose)
+                .chain(&of_volumes),
+        );
+    });
+    Ok((prepared, smoke))
+}
+
+/// A scene with smoke in it, prepared for drawing its lines.
+pub fn prepared(job: &LineJob<'_>, scene: &Scene, smoke: Option<Smoke>) -> Result<Prepared, Fault> {
+    // Prepare its lines.
     let options = LineModelOptions {
         weld: job.args.lines.weld,
         memory_limit: job.limits.memory_bytes,
         painted: job.options.painted.is_some(),
     };
-    let mut model = progress.step("prepare", || {
-        LineModel::for_style(
-            &loaded.scene,
-            &job.look.style,
-            &options,
-            job.cache.as_deref(),
-        )
-    })?;
-    let facts = facts_of(&loaded.scene, smoke.is_some());
+    let (style, cache) = (&job.look.style, job.cache.as_deref());
+    let mut model = LineModel::for_style(scene, style, &options, cache)?;
     model.set_smoke(smoke);
-    let style = &job.look.style;
     let is_painted = style.line_paint_flags() & Part::LINE_TEXTURE != 0;
     if is_painted || style.line.width.picture().is_some() || job.lays_brushes() {
-        model.set_pictures(
-            job.look
-                .pictures(&job.args.drawing.limits.limits(), external)?,
-        );
+        let limits = job.args.drawing.limits.limits();
+        let external = job.args.drawing.allow_external.as_deref();
+        model.set_pictures(job.look.pictures(&limits, external)?);
     }
+
+    // Prepare what draws them, and what is behind them.
     let brushes = match job.lays_brushes() {
-        true => model.brushes(&job.look.style, &job.options)?,
+        true => model.brushes(style, &job.options)?,
         false => StrokeBrushes::default(),
     };
-    let behind = match job.backdrop {
-        Some(_) => Some(progress.step("prepare", || {
-            Model::cached(&loaded.scene, job.cache.as_deref())
-        })?),
-        None => None,
-    };
-    progress.suspend(|| {
-        warn_of(job, &model, reported.notices.iter());
-        let keys = job.look.notices(&job.occasion(facts));
-        let options = idle::of_lines(job, facts, !brushes.all.is_empty());
-        message::warn_all(
-            job.args.drawing.quiet,
-            keys.iter()
-                .chain(&options)
-                .chain(&of_pose)
-                .chain(&of_volumes),
-        );
-    });
+    let behind = job.backdrop.as_ref().map(|_| Model::cached(scene, cache));
     Ok(Prepared {
         lines: model,
-        behind,
+        behind: behind.transpose()?,
         brushes,
     })
 }

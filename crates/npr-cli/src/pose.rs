@@ -18,12 +18,18 @@ pub fn pose(args: &PoseArguments, scene: &mut Scene) -> Result<Vec<String>, Faul
     let Some(clip) = clip_of(args, scene)? else {
         return Ok(why_at_rest(args, scene.clips.len()).into_iter().collect());
     };
-    let pose = scene.pose_at(clip, args.time.unwrap_or(0.0));
+    let clip = clip.clone();
+    Ok(stand(scene, &clip, args.time.unwrap_or(0.0))
+        .into_iter()
+        .collect())
+}
+
+/// Poses the scene at a time of one of its clips, in seconds, and gives what there is to warn of.
+pub fn stand(scene: &mut Scene, clip: &Clip, time_s: f32) -> Option<String> {
+    let pose = scene.pose_at(clip, time_s);
     let name = message::name(&clip.name);
-    Ok(match scene.set_pose(&pose) {
-        Ok(()) => Vec::new(),
-        Err(fault) => vec![format!("clip '{name}' is not played: {fault}")],
-    })
+    let fault = scene.set_pose(&pose).err()?;
+    Some(format!("clip '{name}' is not played: {fault}"))
 }
 
 /// The clip that the user asked for; the first one for a time alone; none where the scene rests.

@@ -16,12 +16,15 @@ use crate::message;
 use crate::output::{Output, print};
 use crate::pose;
 use crate::progress::Progress;
+use crate::source::Loaded;
 use crate::timings::{DRAW, Timings};
 use crate::viewpoint::{self, Seen};
 use crate::volume::{self, Order};
 use npr_core::camera::Camera;
 use npr_gpu::engine::Engine;
-use npr_render::{Frame, LineModelOptions, Model, RendererOptions, Smoke, Subject, facts_of};
+use npr_render::{
+    Frame, LineModelOptions, Model, RenderError, RendererOptions, Smoke, Subject, facts_of,
+};
 use npr_scene::{Limits, Scene};
 use npr_stylesheet::{Facts, Occasion, Style};
 use std::io::Write;
@@ -61,7 +64,9 @@ pub fn render(args: &RenderArguments) -> Result<(), Fault> {
 fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Frame>, Fault> {
     // Load the scene and look at it, while a device opens.
     let engine = EngineChoice::begin(&job.args.drawing);
-    let (prepared, smoke) = prepare(job, progress)?;
+    let mut loaded = load(job, progress)?;
+    let of_pose = pose::pose(&job.args.drawing.pose, &mut loaded.scene)?;
+    let (prepared, smoke) = prepare(job, loaded, &of_pose, progress)?;
     let empty = Smoke::default();
     let smoke_in_it = smoke.as_ref().unwrap_or(&empty);
     let camera = camera_of(&prepared, &job.args.drawing, smoke_in_it)?;
@@ -124,7 +129,7 @@ pub fn camera_of(
     viewpoint::camera(&args.camera, &Seen { model, smoke }, args.size)
 }
 
-/// Prepares a scene for drawing in a style.
+/// Prepares a scene for drawing in a style, as a step of the run.
 pub fn prepared(
     scene: &Scene,
     style: &Style,
@@ -132,33 +137,47 @@ pub fn prepared(
     cache: Option<&Path>,
     progress: &mut Progress,
 ) -> Result<Subject, Fault> {
-    // Prepare surfaces.
-    let model = progress.step("prepare", || Model::cached(scene, cache))?;
+    Ok(progress.step("prepare", || subject(scene, style, limits, cache))?)
+}
 
-    // Prepare its lines, where the style draws strokes.
-    let mut lines = None;
-    if style.has_curves() {
-        let options = LineModelOptions {
-            memory_limit: limits.memory_bytes,
-            ..LineModelOptions::default()
-        };
-        lines = progress.step("prepare", || Subject::lines(scene, style, &options, cache))?;
-    }
+/// A scene prepared for drawing in a style: its surfaces, and its lines where the style draws strokes.
+pub fn subject(
+    scene: &Scene,
+    style: &Style,
+    limits: &Limits,
+    cache: Option<&Path>,
+) -> Result<Subject, RenderError> {
+    let options = LineModelOptions {
+        memory_limit: limits.memory_bytes,
+        ..LineModelOptions::default()
+    };
+    let model = Model::cached(scene, cache)?;
+    let lines = Subject::lines(scene, style, &options, cache)?;
     Ok(Subject { model, lines })
 }
 
-/// Loads and prepares the scene and the smoke in it, and warns about what is ignored.
-pub fn prepare(job: &Job<'_>, progress: &mut Progress) -> Result<(Subject, Option<Smoke>), Fault> {
-    // Load the scene, and refuse to draw over its files.
+/// Loads the scene of a job.
+pub fn load(job: &Job<'_>, progress: &mut Progress) -> Result<Loaded, Fault> {
+    let limits = job.args.drawing.limits.limits();
+    let external = job.args.drawing.allow_external.as_deref();
+    progress.step("load", || job.source.load(&limits, external))
+}
+
+/// Prepares the scene, as it is posed, and the smoke in it, and warns about what is ignored: of its pose, `of_pose`.
+pub fn prepare(
+    job: &Job<'_>,
+    mut loaded: Loaded,
+    of_pose: &[String],
+    progress: &mut Progress,
+) -> Result<(Subject, Option<Smoke>), Fault> {
+    // Refuse to draw over its files.
     let (limits, external) = (
         job.args.drawing.limits.limits(),
         job.args.drawing.allow_external.as_deref(),
     );
-    let mut loaded = progress.step("load", || job.source.load(&limits, external))?;
     let mut inputs = loaded.inputs;
     inputs.extend(job.look.inputs());
     job.target.refuse_any_of(&inputs)?;
-    let of_pose = pose::pose(&job.args.drawing.pose, &mut loaded.scene)?;
 
     // Add the smoke in it.
     let order = Order {

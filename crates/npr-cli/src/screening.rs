@@ -7,7 +7,7 @@ use crate::progress::{Counter, Progress};
 use crate::reel::{Reel, Shown};
 use crate::timings::DRAW;
 use npr_gpu::engine::PassTime;
-use npr_render::{RenderError, Renderer, Shot};
+use npr_render::{Frame, RenderError, Renderer, Shot};
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeSet;
 use std::panic::resume_unwind;
@@ -16,6 +16,46 @@ use std::thread;
 
 /// Most frames that wait to be encoded. Drawing stops while as many wait, so that memory does not grow with the film.
 const WAITING: usize = 2;
+
+/// A frame that was drawn, with what there is to tell of it.
+pub struct Take {
+    /// The frame.
+    pub shown: Shown,
+    /// What was drawn in another way than the style asks.
+    pub notices: Vec<String>,
+    /// The times of the passes that drew it.
+    pub times: Vec<PassTime>,
+}
+
+impl From<Frame> for Take {
+    fn from(mut frame: Frame) -> Self {
+        Self {
+            notices: std::mem::take(&mut frame.notices),
+            times: std::mem::take(&mut frame.times),
+            shown: Shown::Pixels(frame),
+        }
+    }
+}
+
+/// Why a frame could not be drawn.
+pub enum Unfit {
+    /// A fault of the engine, or of what it was asked for: another engine may try.
+    Engine(RenderError),
+    /// Another one, which ends the run.
+    Other(Fault),
+}
+
+impl From<RenderError> for Unfit {
+    fn from(error: RenderError) -> Self {
+        Self::Engine(error)
+    }
+}
+
+impl From<Fault> for Unfit {
+    fn from(fault: Fault) -> Self {
+        Self::Other(fault)
+    }
+}
 
 /// The state of a film while its frames are drawn.
 pub struct Screening {
@@ -28,6 +68,8 @@ pub struct Screening {
     /// Notices about what was drawn in another way than the style asks, each once.
     notices: RefCell<BTreeSet<String>>,
     times: RefCell<Vec<PassTime>>,
+    /// Why no more frames can be drawn, where it is not the engine's fault.
+    failed: RefCell<Option<Fault>>,
 }
 
 impl Screening {
@@ -44,10 +86,29 @@ impl Screening {
         shots: impl Iterator<Item = Shot>,
     ) -> Result<(), RenderError> {
         for frame in renderer.frames(shots.skip(self.done())) {
-            let mut frame = frame?;
-            let notices = std::mem::take(&mut frame.notices);
-            let times = std::mem::take(&mut frame.times);
-            if !self.show(Shown::Pixels(frame), notices, &times) {
+            if !self.show(frame?.into()) {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// The same of frames that `draw` draws by their numbers, one after the other.
+    pub fn show_each(
+        &self,
+        numbers: &[u32],
+        mut draw: impl FnMut(u32) -> Result<Take, Unfit>,
+    ) -> Result<(), RenderError> {
+        for number in numbers.iter().skip(self.done()) {
+            let is_taken = match draw(*number) {
+                Ok(take) => self.show(take),
+                Err(Unfit::Engine(error)) => return Err(error),
+                Err(Unfit::Other(fault)) => {
+                    *self.failed.borrow_mut() = Some(fault);
+                    false
+                }
+            };
+            if !is_taken {
                 break;
             }
         }
@@ -55,10 +116,10 @@ impl Screening {
     }
 
     /// Hands over the next frame, and returns whether frames are still taken.
-    pub fn show(&self, shown: Shown, notices: Vec<String>, times: &[PassTime]) -> bool {
-        self.notices.borrow_mut().extend(notices);
-        self.add_times(times);
-        let is_taken = self.hand.send(shown).is_ok();
+    fn show(&self, take: Take) -> bool {
+        self.notices.borrow_mut().extend(take.notices);
+        self.add_times(&take.times);
+        let is_taken = self.hand.send(take.shown).is_ok();
         self.done.set(self.done() + 1);
         self.counter.tell_pace(DRAW, self.done(), self.count);
         is_taken
@@ -92,6 +153,7 @@ pub fn screened(
         count: reel.count(),
         notices: RefCell::default(),
         times: RefCell::default(),
+        failed: RefCell::default(),
     };
     thread::scope(|scope| {
         // Write frames on a thread that does nothing else, while they are drawn on this one.
@@ -102,6 +164,7 @@ pub fn screened(
             hand,
             notices,
             times,
+            failed,
             ..
         } = screening;
 
@@ -111,7 +174,7 @@ pub fn screened(
             writing.join().unwrap_or_else(|panic| resume_unwind(panic))
         });
         let engine = drawn?.engine;
-        written?;
+        failed.into_inner().map_or(written, Err)?;
         progress.suspend(|| message::warn_all(quiet, notices.into_inner()));
         Ok(Drawn {
             picture: times.into_inner(),

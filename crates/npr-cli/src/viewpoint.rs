@@ -65,6 +65,36 @@ impl Viewed for Seen<'_> {
     }
 }
 
+/// A scene in all poses of a film.
+pub struct Staged<'a> {
+    /// Cameras of the file with their names.
+    pub cameras: &'a [(String, Camera)],
+    /// Places where something is seen, and the box around them.
+    pub points: &'a [[f32; 3]],
+    /// Lowest and highest corner.
+    pub bounds: ([f32; 3], [f32; 3]),
+}
+
+impl Viewed for Staged<'_> {
+    fn cameras(&self) -> &[(String, Camera)] {
+        self.cameras
+    }
+
+    fn bounds(&self) -> ([f32; 3], [f32; 3]) {
+        self.bounds
+    }
+
+    fn framing(&self, aspect: f32, fov_y: f32) -> Camera {
+        Camera::framing_points(self.points.iter().copied(), aspect, fov_y)
+    }
+
+    fn framing_around(&self, [pivot, axis]: [[f32; 3]; 2], (aspect, fov_y): (f32, f32)) -> Camera {
+        let points = self.points.iter().copied().map(Into::into);
+        let swept = npr_core::camera::swept(points, pivot, axis);
+        Camera::framing_points(swept.into_iter(), aspect, fov_y)
+    }
+}
+
 /// A camera that turns about an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Orbit {

@@ -196,9 +196,12 @@ fn resume_leaves_what_is_there_and_draws_the_rest() {
     let mut resumed = files(&place, "f_");
     resumed.insert("02.png".to_owned(), whole["02.png"].clone());
     assert!(whole == resumed);
-    // With all frames there, nothing is done.
-    std::fs::remove_file(place.path("box.obj")).expect("the scene");
+    // With all frames there, none is drawn.
+    for name in place.names().iter().filter(|name| *name != "box.obj") {
+        place.put(name, b"mine");
+    }
     draw(&place, &format!("{film} --resume"));
+    assert!(files(&place, "f_").values().all(|file| file == b"mine"));
 }
 
 #[test]
@@ -332,7 +335,7 @@ fn what_does_not_fit_together_is_refused_before_any_work() {
         (&["animate"], "<SCENE>"),
         (
             &["animate", "scene.obj"],
-            "nothing moves: say --turntable or --orbit DEG",
+            "nothing moves: no clip plays; say --turntable or --orbit DEG",
         ),
         (
             &["animate", "scene.obj", "--orbit", "2"],
@@ -484,5 +487,130 @@ fn memory_does_not_grow_with_the_film() {
         let short = most_memory(&place, &format!("{size} --length 20 -o {film}"));
         let long = most_memory(&place, &format!("{size} --length 300 -o {film}"));
         assert!(long < short + 8_000, "{film}: {short} kB, then {long} kB");
+    }
+}
+
+/// A folder with a wing that beats for two seconds.
+fn wing_place() -> Workplace {
+    let place = Workplace::new();
+    place.put("wing.glb", &npr_scene::testing::wing());
+    place
+}
+
+fn words(line: &str) -> Vec<&str> {
+    line.split(' ').collect()
+}
+
+#[test]
+fn a_frame_of_a_clip_is_the_picture_at_its_time() {
+    let view = "--size 48x32 --eye 2,3,4 --target 0.5,1,0 -q";
+    let cases = [
+        ("render", "png", "cpu", "--style comic-silver"),
+        ("render", "png", "gpu", "--style toon"),
+        ("render", "exr", "cpu", "--style toon"),
+        ("lines", "svg", "cpu", "--hidden dashed"),
+        ("lines", "svg", "gpu", "--kinds contour,boundary"),
+        ("lines", "json", "cpu", "--style ink"),
+    ];
+    for clip in ["Beat", "Stretch"] {
+        for (command, ending, backend, more) in cases {
+            let place = wing_place();
+            if backend == "gpu" && place.npr(&["doctor"]).code != Some(0) {
+                continue;
+            }
+            let common = format!("{view} --backend {backend} {more} --clip {clip}");
+            place
+                .npr(&words(&format!(
+                    "animate wing.glb {common} --fps 4 -o f_#.{ending}"
+                )))
+                .assert_silent_success();
+            assert_eq!(place.names().len(), 9, "two seconds are eight frames");
+            for number in [0_u8, 3, 7] {
+                let time = f32::from(number) / 4.0;
+                place
+                    .npr(&words(&format!(
+                        "{command} wing.glb {common} --time {time} -o still.{ending}"
+                    )))
+                    .assert_silent_success();
+                let frame = place.get(&format!("f_{number}.{ending}"));
+                assert!(
+                    frame == place.get(&format!("still.{ending}")),
+                    "{clip} {ending} {backend} {number}"
+                );
+            }
+            assert!(place.get(&format!("f_1.{ending}")) != place.get(&format!("f_5.{ending}")));
+        }
+    }
+}
+
+#[test]
+fn the_first_clip_plays_and_parts_of_it_are_the_whole() {
+    for ending in ["png", "svg"] {
+        let place = wing_place();
+        let film = |name: &str, more: &str| {
+            let line = format!(
+                "animate wing.glb --size 48x32 --backend cpu -q --fps 3 -o {name}_#.{ending}{more}"
+            );
+            place.npr(&words(&line)).assert_silent_success();
+            files(&place, &format!("{name}_"))
+        };
+        let whole = film("whole", "");
+        assert_eq!(whole.len(), 6);
+        assert!(whole == film("named", " --clip Beat") && whole != film("other", " --clip 1"));
+        film("parts", " --frames 4..5");
+        assert!(whole == film("parts", " --frames 0..3"));
+        let turned = film("turned", " --turntable");
+        assert_eq!(turned.len(), 6);
+        let frame = |number: u32| &turned[&format!("{number}.{ending}")];
+        assert!(frame(0) != frame(3), "it turns");
+    }
+}
+
+#[test]
+fn a_time_holds_the_pose_still() {
+    let place = wing_place();
+    let film = "animate wing.glb --size 48x32 --backend cpu -q --turntable --length 4";
+    place
+        .npr(&words(&format!(
+            "{film} --time 1 --frames 0..4 -o held_#.png"
+        )))
+        .assert_silent_success();
+    assert!(
+        place.get("held_0.png") == place.get("held_4.png"),
+        "the camera comes back, and the pose stands"
+    );
+    place
+        .npr(&words(&format!("{film} --frames 0..4 -o played_#.png")))
+        .assert_silent_success();
+    assert!(place.get("played_0.png") != place.get("played_4.png"));
+    place
+        .npr(&["animate", "wing.glb", "--time", "1"])
+        .assert_fault(2, "nothing moves");
+    place
+        .npr(&["animate", "wing.glb", "--clip", "Bet"])
+        .assert_fault(2, "no clip 'Bet'; it has 'Beat', 'Stretch'");
+}
+
+/// The camera frames all that the clip shows, whatever part of it is drawn.
+#[test]
+fn the_whole_clip_is_framed() {
+    let place = wing_place();
+    for more in ["", "--turntable", "--lines"] {
+        let line = format!(
+            "animate wing.glb --clip Stretch --size 96x64 --backend cpu -q --fps 6 {more} -o f_##.png"
+        );
+        place
+            .npr(&line.split_whitespace().collect::<Vec<_>>())
+            .assert_silent_success();
+        for (name, file) in files(&place, "f_") {
+            let pixels = pixels(&file);
+            let is_border =
+                |at: &usize| at % 96 == 0 || at % 96 == 95 || *at < 96 || *at >= 96 * 63;
+            let border = (0..pixels.len()).filter(is_border);
+            assert!(
+                border.map(|at| pixels[at]).all(|pixel| pixel == pixels[0]),
+                "{more} {name}"
+            );
+        }
     }
 }

@@ -360,14 +360,31 @@ const PLAYED: &[&str] = &[
 ];
 const OF_LINES: &str = "is ignored: frames are pictures: --lines draws the lines alone";
 
+const BEAT: &[&str] = &["animate", "wing.glb", "--frames", "3", "-o", "a.png"];
+
 const ANIMATIONS: &[Case] = &[
+    (BEAT, &["--fps", "6"], Acts),
+    (BEAT, &["--clip", "1"], Acts),
+    (BEAT, &["--turntable", "--length", "7"], Acts),
+    (
+        &[
+            "animate", "wing.glb", "--frames", "3", "--orbit", "9", "-o", "a.png",
+        ],
+        &["--time", "0.5"],
+        Acts,
+    ),
+    (
+        ORBIT,
+        &["--time", "0.5"],
+        Told("--time is ignored: the scene has no clips"),
+    ),
     (TURN, &["--length", "8"], Acts),
     (TURN, &["--frames", "3"], Acts),
     (TURN, &["--lines"], Acts),
     (
         TURN,
         &["--fps", "12"],
-        Told("--fps is ignored: every file holds one frame"),
+        Told("--fps is ignored: every file holds one frame, and no clip plays"),
     ),
     (ORBIT, &["--orbit", "-40"], Acts),
     (ORBIT, &["--length", "8"], Told("--length is ignored: ")),
@@ -612,6 +629,7 @@ fn options_of_drawings_act_or_are_told() {
 fn options_of_films_act_or_are_told() {
     let place = Workplace::new();
     place.put("scene.obj", BOX);
+    place.put("wing.glb", &npr_scene::testing::wing());
     run_all(&place, ANIMATIONS, &SMALL);
 }
 

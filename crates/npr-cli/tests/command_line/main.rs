@@ -7,6 +7,7 @@ mod closing;
 mod colors;
 mod debug_layers;
 mod determinism;
+mod farm;
 mod ffmpeg;
 mod files;
 mod id_maps;
