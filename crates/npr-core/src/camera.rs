@@ -332,6 +332,70 @@ mod tests {
         }
     }
 
+    proptest! {
+        /// What a camera sees of the world after it turned is what it saw before of a world turned the other way.
+        #[test]
+        fn a_turned_camera_sees_the_world_turned_back(
+            eye in prop::array::uniform3(-3.0f32..3.0),
+            pivot in prop::array::uniform3(-2.0f32..2.0),
+            axis in prop::array::uniform3(-1.0f32..1.0),
+            point in prop::array::uniform3(-1.0f32..1.0),
+            angle in -7.0f32..7.0,
+        ) {
+            let camera = Camera { eye: [eye[0], eye[1], eye[2] + 9.0], ..Camera::framing([-1.0; 3], [1.0; 3]) };
+            prop_assume!(Vec3::from(axis).length() > 0.1);
+            let turn = glam::Quat::from_axis_angle(Vec3::from(axis).normalize(), -angle);
+            let turned_back = Vec3::from(pivot) + turn * (Vec3::from(point) - Vec3::from(pivot));
+            let seen = |camera: &Camera, point: [f32; 3]| {
+                // Depths follow from the box, which turns too: only the place in the picture is compared.
+                let [x, y, _, w] = project(&camera.view([16, 9], ([-20.0; 3], [20.0; 3])), point);
+                [x / w, y / w]
+            };
+            let [now, wanted] = [
+                seen(&camera.turned(pivot, axis, angle), point),
+                seen(&camera, turned_back.to_array()),
+            ];
+            prop_assert!((now[0] - wanted[0]).abs() < 1e-3 && (now[1] - wanted[1]).abs() < 1e-3, "{now:?} {wanted:?}");
+        }
+
+        /// From every side of the axis, what is swept reaches as far as each point does at any angle.
+        #[test]
+        fn rings_enclose_what_turns(
+            points in prop::collection::vec(prop::array::uniform3(-5.0f32..5.0), 1..20),
+            pivot in prop::array::uniform3(-2.0f32..2.0),
+            axis in prop::array::uniform3(-1.0f32..1.0),
+            side in prop::array::uniform3(-1.0f32..1.0),
+            angle in 0.0f32..7.0,
+        ) {
+            prop_assume!(Vec3::from(axis).length() > 0.1 && Vec3::from(side).length() > 0.1);
+            let (unit, side) = (Vec3::from(axis).normalize(), Vec3::from(side).normalize());
+            let pivot_world = Vec3::from(pivot);
+            let points = points.into_iter().map(Vec3::from);
+            let rings = swept(points.clone(), pivot, axis);
+            let reach = rings.iter().map(|ring| Vec3::from(*ring).dot(side)).fold(f32::MIN, f32::max);
+            for point in points {
+                let turned = pivot_world + glam::Quat::from_axis_angle(unit, angle) * (point - pivot_world);
+                let slack = 0.006 * (point - pivot_world).length() + 1e-4;
+                prop_assert!(turned.dot(side) <= reach + slack, "{} beyond {reach}", turned.dot(side));
+            }
+        }
+    }
+
+    #[test]
+    fn a_quarter_turn_leads_from_front_to_right() {
+        let camera = Camera {
+            eye: [0.0, 1.0, 5.0],
+            target: [0.0, 1.0, 0.0],
+            ..Camera::framing([-1.0; 3], [1.0; 3])
+        };
+        let [x, y, z] = camera
+            .turned([0.0; 3], [0.0, 2.0, 0.0], std::f32::consts::FRAC_PI_2)
+            .eye;
+        assert!((x - 5.0).abs() < 1e-5 && (y - 1.0).abs() < 1e-5 && z.abs() < 1e-5);
+        assert_eq!(camera.turned([7.0; 3], [0.3, 1.0, 0.2], 0.0), camera);
+        assert!(swept(std::iter::empty(), [0.0; 3], [0.0, 1.0, 0.0]).is_empty());
+    }
+
     #[test]
     fn a_camera_that_looks_along_its_up_still_has_axes() {
         let camera = Camera {
