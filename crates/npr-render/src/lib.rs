@@ -24,6 +24,7 @@
 
 mod beam_light;
 mod bend;
+mod bending;
 mod brushes;
 #[cfg(feature = "wgpu")]
 mod device;

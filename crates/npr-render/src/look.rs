@@ -131,6 +131,18 @@ impl StyledModel {
             manners: StrokeManners::new(stroked, style),
         })
     }
+
+    /// Takes over where the vertices of a model are, and their normals; widths, colours and charts stay.
+    pub fn follow(&mut self, model: &Model) {
+        for (vertex, moved) in self.vertices.iter_mut().zip(&model.vertices) {
+            *vertex = Vertex {
+                width: vertex.width,
+                color: vertex.color,
+                chart_distortion: vertex.chart_distortion,
+                ..*moved
+            };
+        }
+    }
 }
 
 /// A part as the style's rules for its names make it.

@@ -6,5 +6,6 @@ mod lines;
 mod malformed;
 mod models;
 mod mutants;
+mod poses;
 mod text_formats;
 mod tolerated;

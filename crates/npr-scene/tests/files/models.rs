@@ -38,7 +38,7 @@ const TRIANGLE_COUNTS: [(&str, usize); 30] = [
     ("formats/spot_control_mesh_quads.obj", 372),
 ];
 
-fn models() -> Option<PathBuf> {
+pub fn models() -> Option<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/assets/models");
     if !folder.is_dir() {
         eprintln!("skipped: the shared models are not beside this checkout");
@@ -47,7 +47,7 @@ fn models() -> Option<PathBuf> {
     Some(folder)
 }
 
-fn loaded(folder: &Path, name: &str) -> Scene {
+pub fn loaded(folder: &Path, name: &str) -> Scene {
     let scene = load(&folder.join(name), &LoadOptions::default());
     let scene = scene.unwrap_or_else(|fault| panic!("{name}: {fault}"));
     scene.sanity_check();
