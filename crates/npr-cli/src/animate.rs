@@ -2,7 +2,7 @@
 
 use crate::arguments::{
     AnimateArguments, DrawingArguments, Frames, LineFormat, LinesArguments, LookArguments,
-    RenderArguments,
+    PoseArguments, RenderArguments,
 };
 use crate::dump::dump_style;
 use crate::ending::has_ending;
@@ -13,22 +13,21 @@ use crate::idle;
 use crate::job::{Job, PictureFormat, film_path};
 use crate::line_file;
 use crate::line_job::LineJob;
-use crate::lines::{self, Prepared};
+use crate::lines;
 use crate::message::{self, quoted};
 use crate::output::Output;
 use crate::playing::{Playing, Stage};
-use crate::pose;
 use crate::progress::Progress;
 use crate::reel::{Codec, Encoding, FilmFormat, Reel, Stills, Whole, check_frames, check_rate};
 use crate::render;
-use crate::screening::{Screening, Take, Unfit, screened};
+use crate::screening::{Take, screened};
 use crate::source::Source;
 use crate::target::Target;
 use crate::timings::Timings;
 use crate::viewpoint::{self, Orbit, Seen, Viewed};
 use npr_core::camera::Camera;
 use npr_gpu::engine::{Engine, PassTime};
-use npr_render::{LineRenderer, RendererOptions, Shot, Smoke};
+use npr_render::{RendererOptions, Shot, Smoke, cameras_of};
 use npr_scene::Scene;
 use std::io::Write;
 use std::path::Path;
@@ -192,7 +191,7 @@ impl<'a> FilmJob<'a> {
     /// The frames of a film of a scene that was loaded.
     fn frames(&self, scene: &Scene) -> Result<Frameset, Fault> {
         let film = &self.args.film;
-        let playing = Playing::of(&self.args.drawing, scene, film.fps)?;
+        let playing = Playing::of(&self.args.drawing.pose, scene, film.fps)?;
         let plan = FilmPlan::new(film, playing.as_ref().map(Playing::duration_s))?;
         let Frames { first, last } = plan.frames;
         let target = match self.format {
@@ -242,18 +241,27 @@ impl<'a> FilmJob<'a> {
         }
     }
 
-    /// The way of the camera.
-    fn orbit(&self, plan: &FilmPlan, seen: &dyn Viewed) -> Result<Orbit, Fault> {
-        let (camera, size) = (&self.args.drawing.camera, self.args.drawing.size);
-        match plan.turn {
-            Some(_) => viewpoint::orbit(camera, seen, size),
-            None => viewpoint::camera(camera, seen, size).map(Orbit::still),
-        }
-    }
-
-    /// Whether the camera is one of the file, which a clip may move.
-    fn has_moving_camera(&self) -> bool {
-        self.args.drawing.camera.camera.is_some()
+    /// The way of the camera. `seen` is the scene, with the smoke in it, as it is prepared; where a clip plays, the
+    /// camera is placed by all of it.
+    fn way<'b>(
+        &'b self,
+        frames: &'b Frameset,
+        (scene, smoke): (&Scene, Option<&Smoke>),
+        seen: &dyn Viewed,
+    ) -> Result<Way<'b>, Fault> {
+        let args = &self.args.drawing;
+        let stage = frames.playing.as_ref();
+        let stage = stage.map(|playing| playing.stage(scene, smoke));
+        let orbit = |seen: &dyn Viewed| orbit_of(args, &frames.plan, seen);
+        Ok(Way {
+            args,
+            plan: &frames.plan,
+            orbit: match &stage {
+                Some(stage) => orbit(&stage.with_cameras(&cameras_of(scene)))?,
+                None => orbit(seen)?,
+            },
+            stage,
+        })
     }
 
     /// Warns of options that have no effect in the frames of the film.
@@ -264,15 +272,48 @@ impl<'a> FilmJob<'a> {
     }
 }
 
-impl Frameset {
-    /// Poses a scene that was loaded as its first frame that is drawn shows it, and gives what there is to warn of.
-    fn pose(&self, args: &DrawingArguments, scene: &mut Scene) -> Result<Vec<String>, Fault> {
-        let (Some(playing), Some(first)) = (&self.playing, self.numbers.first()) else {
-            return pose::pose(&args.pose, scene);
+/// The way of the camera through a film.
+struct Way<'a> {
+    args: &'a DrawingArguments,
+    plan: &'a FilmPlan,
+    orbit: Orbit,
+    /// What is seen of a clip that plays.
+    stage: Option<Stage>,
+}
+
+impl Way<'_> {
+    /// The camera of a frame of a scene that stands still.
+    fn still(&self, number: u32) -> Camera {
+        self.orbit.at(self.plan.angle(number))
+    }
+
+    /// The camera of a frame, where a clip may have moved those of the scene.
+    fn at(&self, number: u32, scene: &Scene) -> Result<Camera, Fault> {
+        let Some(stage) = self
+            .stage
+            .as_ref()
+            .filter(|_| self.args.camera.camera.is_some())
+        else {
+            return Ok(self.still(number));
         };
-        let (posed, warning) = playing.loaded_at(*first);
-        *scene = posed;
-        Ok(warning.into_iter().collect())
+        let cameras = cameras_of(scene);
+        let orbit = orbit_of(self.args, self.plan, &stage.with_cameras(&cameras))?;
+        Ok(orbit.at(self.plan.angle(number)))
+    }
+}
+
+/// The camera before it turns, and what it turns about.
+fn orbit_of(args: &DrawingArguments, plan: &FilmPlan, seen: &dyn Viewed) -> Result<Orbit, Fault> {
+    match plan.turn {
+        Some(_) => viewpoint::orbit(&args.camera, seen, args.size),
+        None => viewpoint::camera(&args.camera, seen, args.size).map(Orbit::still),
+    }
+}
+
+impl Frameset {
+    /// The pose that the scene holds in all frames; none where a clip plays.
+    fn held<'a>(&self, args: &'a DrawingArguments) -> Option<&'a PoseArguments> {
+        self.playing.is_none().then_some(&args.pose)
     }
 }
 
@@ -291,7 +332,7 @@ fn draw_frames(
     let keep_alpha = job.look.is_transparent();
     film.check(job.options.size, keep_alpha)?;
     let engine = EngineChoice::begin(&args.drawing);
-    let mut loaded = render::load(&job, progress)?;
+    let loaded = render::load(&job, progress)?;
     let frames = film.frames(&loaded.scene)?;
     if frames.numbers.is_empty() {
         return Ok(None);
@@ -299,61 +340,41 @@ fn draw_frames(
     job.target = frames.target.clone();
 
     // Prepare it, and place the camera.
-    let of_pose = frames.pose(&args.drawing, &mut loaded.scene)?;
-    let (prepared, smoke) = render::prepare(&job, loaded, &of_pose, progress)?;
+    let staged = render::prepare(&job, loaded, frames.held(&args.drawing), progress)?;
     film.tell_idle(&frames, progress);
-    let stage = frames
-        .playing
-        .as_ref()
-        .map(|playing| playing.stage(smoke.as_ref()));
+    let (subject, smoke) = (&staged.subject, staged.smoke.as_ref());
     let none = Smoke::default();
     let seen = Seen {
-        model: &prepared.model,
-        smoke: smoke.as_ref().unwrap_or(&none),
+        model: &subject.model,
+        smoke: smoke.unwrap_or(&none),
     };
-    let orbit = match &stage {
-        Some(stage) => film.orbit(&frames.plan, &stage.with_cameras(prepared.model.cameras()))?,
-        None => film.orbit(&frames.plan, &seen)?,
-    };
+    let way = film.way(&frames, (&staged.scene, smoke), &seen)?;
     let options = RendererOptions {
-        smoke: smoke.clone(),
+        smoke: smoke.cloned(),
         ..job.options.clone()
     };
 
     // Draw all frames.
     let encoding = match format {
         PictureFormat::Png => Encoding::Png { keep_alpha },
-        PictureFormat::Exr => Encoding::Exr(prepared.model.object_names()),
+        PictureFormat::Exr => Encoding::Exr(subject.model.object_names()),
     };
     let reel = film.reel(&frames, (options.size, keep_alpha), encoding);
-    let style = &job.look.style;
-    let still = |screening: &Screening, engine: &dyn Engine| {
-        let angles = frames
-            .numbers
-            .iter()
-            .map(|number| frames.plan.angle(*number));
-        let shots = angles.map(|angle| Shot::from(orbit.at(angle)));
-        screening.show_all(prepared.renderer(engine, style, &options)?, shots)
-    };
-    let limits = args.drawing.limits.limits();
-    let external = args.drawing.allow_external.as_deref();
-    let played = |(playing, stage): (&Playing, &Stage), number: u32, engine: &dyn Engine| {
-        let (scene, _) = playing.scene_at(number, &job.look, (&limits, external))?;
-        let subject = render::subject(&scene, style, &limits, job.cache.as_deref())?;
-        let orbit = match film.has_moving_camera() {
-            true => film.orbit(&frames.plan, &stage.with_cameras(subject.model.cameras()))?,
-            false => orbit,
-        };
-        let mut renderer = subject.renderer(engine, style, &options)?;
-        let frame = renderer.draw(&orbit.at(frames.plan.angle(number)))?;
-        Ok(Take::from(frame))
-    };
     let drawn = screened(reel, args.drawing.quiet, progress, |screening, progress| {
-        let pictures = |engine: &dyn Engine| match frames.playing.as_ref().zip(stage.as_ref()) {
-            Some(clip) => {
-                screening.show_each(&frames.numbers, |number| played(clip, number, engine))
-            }
-            None => still(screening, engine),
+        let pictures = |engine: &dyn Engine| {
+            let mut renderer = subject.renderer(engine, &job.look.style, &options)?;
+            let Some(playing) = &frames.playing else {
+                let cameras = frames.numbers.iter().map(|number| way.still(*number));
+                return screening.show_all(renderer, cameras.map(Shot::from));
+            };
+            let mut scene = staged.scene.clone();
+            screening.show_each(&frames.numbers, |number| {
+                let warning = playing.pose(&mut scene, number);
+                renderer.set_pose(&scene)?;
+                let mut take = Take::from(renderer.draw(&way.at(number, &scene)?)?);
+                take.notices.extend(warning);
+                Ok(take)
+            })
         };
         engine.draw_as_step(&pictures, progress)
     })?;
@@ -373,7 +394,7 @@ fn draw_lines(
     film.check(job.options.size, keep_alpha)?;
     line_file::check_memory(&job)?;
     let engine = EngineChoice::begin(&args.drawing);
-    let mut loaded = lines::load(&job, progress)?;
+    let loaded = lines::load(&job, progress)?;
     let frames = film.frames(&loaded.scene)?;
     if frames.numbers.is_empty() {
         return Ok(None);
@@ -381,52 +402,33 @@ fn draw_lines(
     job.target = frames.target.clone();
 
     // Prepare it, and place the camera.
-    let of_pose = frames.pose(&args.drawing, &mut loaded.scene)?;
-    let (prepared, smoke) = lines::prepare(&job, loaded, &of_pose, progress)?;
+    let prepared = lines::prepare(&job, loaded, frames.held(&args.drawing), progress)?;
     film.tell_idle(&frames, progress);
-    let stage = frames
-        .playing
-        .as_ref()
-        .map(|playing| playing.stage(smoke.as_ref()));
-    let orbit = match &stage {
-        Some(stage) => film.orbit(&frames.plan, &stage.with_cameras(prepared.lines.cameras()))?,
-        None => film.orbit(&frames.plan, &prepared.lines)?,
-    };
+    let smoke = prepared.smoke.as_ref();
+    let way = film.way(&frames, (&prepared.scene, smoke), &prepared.lines)?;
 
     // Draw all frames.
     let encoding = Encoding::Png { keep_alpha };
     let reel = film.reel(&frames, (job.options.size, keep_alpha), encoding);
-    let (limits, external) = (&job.limits, args.drawing.allow_external.as_deref());
-    let drawn_by = |prepared: &Prepared, renderer: &mut LineRenderer<'_>, camera: &Camera| {
-        let mut drawing = renderer.draw(camera, &job.look.style, &job.options)?;
-        Ok::<_, Unfit>(Take {
-            notices: std::mem::take(&mut drawing.notices),
-            times: renderer.times().to_vec(),
-            shown: prepared.shown(&job, &drawing, camera)?,
-        })
-    };
-    let played = |(playing, stage): (&Playing, &Stage), number: u32, engine: &dyn Engine| {
-        let (scene, _) = playing.scene_at(number, &job.look, (limits, external))?;
-        let prepared = lines::prepared(&job, &scene, smoke.clone())?;
-        let orbit = match film.has_moving_camera() {
-            true => film.orbit(&frames.plan, &stage.with_cameras(prepared.lines.cameras()))?,
-            false => orbit,
-        };
-        let camera = orbit.at(frames.plan.angle(number));
-        drawn_by(&prepared, &mut prepared.renderer(engine, &job), &camera)
-    };
     let drawn = screened(reel, args.drawing.quiet, progress, |screening, progress| {
-        let drawings = |engine: &dyn Engine| match frames.playing.as_ref().zip(stage.as_ref()) {
-            Some(clip) => {
-                screening.show_each(&frames.numbers, |number| played(clip, number, engine))
-            }
-            None => {
-                let mut renderer = prepared.renderer(engine, &job);
-                screening.show_each(&frames.numbers, |number| {
-                    let camera = orbit.at(frames.plan.angle(number));
-                    drawn_by(&prepared, &mut renderer, &camera)
+        let drawings = |engine: &dyn Engine| {
+            let mut renderer = prepared.renderer(engine, &job);
+            let mut scene = prepared.scene.clone();
+            screening.show_each(&frames.numbers, |number| {
+                let mut notices = Vec::new();
+                if let Some(playing) = &frames.playing {
+                    notices.extend(playing.pose(&mut scene, number));
+                    renderer.set_pose(&scene)?;
+                }
+                let camera = way.at(number, &scene)?;
+                let mut drawing = renderer.draw(&camera, &job.look.style, &job.options)?;
+                notices.append(&mut drawing.notices);
+                Ok(Take {
+                    shown: prepared.shown(&job, &drawing, &camera)?,
+                    notices,
+                    times: renderer.times().to_vec(),
                 })
-            }
+            })
         };
         engine.draw_as_step(&drawings, progress)
     })?;

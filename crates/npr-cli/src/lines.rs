@@ -1,7 +1,8 @@
 //! `npr lines`: draws the lines of a scene as curves.
 
 use crate::arguments::{
-    Backend, LineArguments, LineFormat, LinesArguments, RenderArguments, SheetArguments,
+    Backend, LineArguments, LineFormat, LinesArguments, PoseArguments, RenderArguments,
+    SheetArguments,
 };
 use crate::dump::dump_style;
 use crate::engine::{Drawn, EngineChoice};
@@ -78,9 +79,8 @@ pub fn lines_of_picture(args: &RenderArguments) -> Result<(), Fault> {
 fn draw(job: &LineJob<'_>, progress: &mut Progress) -> Result<Drawn<LineFrame>, Fault> {
     line_file::check_memory(job)?;
     let engine = EngineChoice::begin(&job.args.drawing);
-    let mut loaded = load(job, progress)?;
-    let of_pose = pose::pose(&job.args.drawing.pose, &mut loaded.scene)?;
-    let (model, _) = prepare(job, loaded, &of_pose, progress)?;
+    let loaded = load(job, progress)?;
+    let model = prepare(job, loaded, Some(&job.args.drawing.pose), progress)?;
     let lines = &model.lines;
     let camera = viewpoint::camera(&job.args.drawing.camera, lines, job.args.drawing.size)?;
     let drawn = draw_lines((job, &engine), &model, &camera, progress)?;
@@ -103,6 +103,10 @@ pub struct Prepared {
     behind: Option<Model>,
     /// What the strokes of the file are drawn with.
     brushes: StrokeBrushes,
+    /// The smoke in the scene.
+    pub smoke: Option<Smoke>,
+    /// What all of it was made of, in the same pose.
+    pub scene: Scene,
 }
 
 impl Prepared {
@@ -127,6 +131,23 @@ impl Prepared {
             LineFormat::Png => line_file::pixels(job, drawing, ink).map(Shown::Pixels),
             _ => line_file::encode(job, drawing, ink).map(Shown::File),
         }
+    }
+
+    /// Moves all of it into the pose that the user asked for, and gives what there is to warn of.
+    fn pose(
+        &mut self,
+        args: &PoseArguments,
+        progress: &mut Progress,
+    ) -> Result<Vec<String>, Fault> {
+        let warnings = pose::pose(args, &mut self.scene)?;
+        if pose::clip_of(args, &self.scene)?.is_some() {
+            progress.step("pose", || {
+                self.lines.set_pose(&self.scene)?;
+                let behind = self.behind.as_mut();
+                behind.map_or(Ok(()), |model| model.set_pose(&self.scene))
+            })?;
+        }
+        Ok(warnings)
     }
 
     /// A renderer of its lines.
@@ -193,13 +214,14 @@ pub fn load(job: &LineJob<'_>, progress: &mut Progress) -> Result<Loaded, Fault>
     })
 }
 
-/// Prepares the scene, as it is posed, and the smoke in it, and warns about what is ignored: of its pose, `of_pose`.
+/// Prepares the scene and the smoke in it, and warns about what is ignored. The scene takes the pose that is asked for;
+/// without `pose` it rests.
 pub fn prepare(
     job: &LineJob<'_>,
     mut loaded: Loaded,
-    of_pose: &[String],
+    pose: Option<&PoseArguments>,
     progress: &mut Progress,
-) -> Result<(Prepared, Option<Smoke>), Fault> {
+) -> Result<Prepared, Fault> {
     // Refuse to draw over its files, and add the smoke in it.
     let external = job.args.drawing.allow_external.as_deref();
     let mut inputs = loaded.inputs;
@@ -218,7 +240,13 @@ pub fn prepare(
     job.look
         .apply_id_maps(&mut loaded.scene, &job.limits, external)?;
     let facts = facts_of(&loaded.scene, smoke.is_some());
-    let prepared = progress.step("prepare", || prepared(job, &loaded.scene, smoke.clone()))?;
+    let mut prepared = progress.step("prepare", || prepared(job, loaded.scene, smoke))?;
+
+    // Pose it.
+    let of_pose = match pose {
+        Some(args) => prepared.pose(args, progress)?,
+        None => Vec::new(),
+    };
 
     // Warn about what was mended, and about keys and options that have no effect.
     progress.suspend(|| {
@@ -229,15 +257,15 @@ pub fn prepare(
             job.args.drawing.quiet,
             keys.iter()
                 .chain(&options)
-                .chain(of_pose)
+                .chain(&of_pose)
                 .chain(&of_volumes),
         );
     });
-    Ok((prepared, smoke))
+    Ok(prepared)
 }
 
 /// A scene with smoke in it, prepared for drawing its lines.
-pub fn prepared(job: &LineJob<'_>, scene: &Scene, smoke: Option<Smoke>) -> Result<Prepared, Fault> {
+fn prepared(job: &LineJob<'_>, scene: Scene, smoke: Option<Smoke>) -> Result<Prepared, Fault> {
     // Prepare its lines.
     let options = LineModelOptions {
         weld: job.args.lines.weld,
@@ -245,8 +273,8 @@ pub fn prepared(job: &LineJob<'_>, scene: &Scene, smoke: Option<Smoke>) -> Resul
         painted: job.options.painted.is_some(),
     };
     let (style, cache) = (&job.look.style, job.cache.as_deref());
-    let mut model = LineModel::for_style(scene, style, &options, cache)?;
-    model.set_smoke(smoke);
+    let mut model = LineModel::for_style(&scene, style, &options, cache)?;
+    model.set_smoke(smoke.clone());
     let is_painted = style.line_paint_flags() & Part::LINE_TEXTURE != 0;
     if is_painted || style.line.width.picture().is_some() || job.lays_brushes() {
         let limits = job.args.drawing.limits.limits();
@@ -259,11 +287,13 @@ pub fn prepared(job: &LineJob<'_>, scene: &Scene, smoke: Option<Smoke>) -> Resul
         true => model.brushes(style, &job.options)?,
         false => StrokeBrushes::default(),
     };
-    let behind = job.backdrop.as_ref().map(|_| Model::cached(scene, cache));
+    let behind = job.backdrop.as_ref().map(|_| Model::cached(&scene, cache));
     Ok(Prepared {
         lines: model,
         behind: behind.transpose()?,
         brushes,
+        smoke,
+        scene,
     })
 }
 

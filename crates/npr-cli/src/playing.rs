@@ -1,15 +1,12 @@
 //! The clip that plays in a film.
 
-use crate::arguments::DrawingArguments;
+use crate::arguments::PoseArguments;
 use crate::fault::Fault;
-use crate::look::Look;
 use crate::pose;
 use crate::viewpoint::Staged;
-use npr_core::camera::Camera;
-use npr_core::camera::bounds_of;
+use npr_core::camera::{Camera, bounds_of, box_corners};
 use npr_render::Smoke;
-use npr_scene::{Clip, Limits, Scene};
-use std::path::Path;
+use npr_scene::{Clip, Scene};
 
 /// Fewest and most moments of a clip that a camera is placed by.
 const LOOKS: [usize; 2] = [8, 32];
@@ -17,11 +14,9 @@ const LOOKS: [usize; 2] = [8, 32];
 /// Most points that are looked at for that, in all moments.
 const LOOKED_AT: usize = 2_000_000;
 
-/// A scene of which a clip plays.
+/// The clip that plays in a film.
 #[derive(Debug, Clone)]
 pub struct Playing {
-    /// The scene as it was loaded, at rest.
-    scene: Scene,
     clip: Clip,
     fps: f32,
 }
@@ -29,16 +24,13 @@ pub struct Playing {
 impl Playing {
     /// The clip of `scene` that plays at `fps` frames a second: the one that the user asked for, else the first. None
     /// where there is none, and where `--time` holds the pose still.
-    pub fn of(args: &DrawingArguments, scene: &Scene, fps: f32) -> Result<Option<Self>, Fault> {
-        if args.pose.time.is_some() {
+    pub fn of(args: &PoseArguments, scene: &Scene, fps: f32) -> Result<Option<Self>, Fault> {
+        if args.time.is_some() {
             return Ok(None);
         }
-        let asked = pose::clip_of(&args.pose, scene)?;
-        Ok(asked.or(scene.clips.first()).map(|clip| Self {
-            scene: scene.clone(),
-            clip: clip.clone(),
-            fps,
-        }))
+        let asked = pose::clip_of(args, scene)?;
+        let clip = asked.or(scene.clips.first()).cloned();
+        Ok(clip.map(|clip| Self { clip, fps }))
     }
 
     /// How long the clip is, in seconds.
@@ -46,43 +38,22 @@ impl Playing {
         self.clip.duration_s()
     }
 
-    /// The scene as it stands in a frame, with id maps of the look, and what there is to warn of.
-    pub fn scene_at(
-        &self,
-        frame: u32,
-        look: &Look,
-        (limits, external): (&Limits, Option<&Path>),
-    ) -> Result<(Scene, Option<String>), Fault> {
-        let (mut scene, warning) = self.posed(self.time_of(frame));
-        look.apply_id_maps(&mut scene, limits, external)?;
-        Ok((scene, warning))
-    }
-
-    /// The scene as it stands in a frame, before any id maps.
-    pub fn loaded_at(&self, frame: u32) -> (Scene, Option<String>) {
-        self.posed(self.time_of(frame))
-    }
-
-    /// The time of a frame, in seconds.
-    fn time_of(&self, frame: u32) -> f32 {
-        (f64::from(frame) / f64::from(self.fps)) as f32
-    }
-
-    fn posed(&self, time_s: f32) -> (Scene, Option<String>) {
-        let mut scene = self.scene.clone();
-        let warning = pose::stand(&mut scene, &self.clip, time_s);
-        (scene, warning)
+    /// Poses the scene as it stands in a frame, and gives what there is to warn of.
+    pub fn pose(&self, scene: &mut Scene, frame: u32) -> Option<String> {
+        let time_s = f64::from(frame) / f64::from(self.fps);
+        pose::stand(scene, &self.clip, time_s as f32)
     }
 
     /// What is seen of the scene in the whole clip, with the smoke in it: a camera that is placed by it stands still,
     /// whichever frames are drawn.
-    pub fn stage(&self, smoke: Option<&Smoke>) -> Stage {
-        let vertices = self.scene.vertex_count().max(1);
+    pub fn stage(&self, scene: &Scene, smoke: Option<&Smoke>) -> Stage {
+        let mut scene = scene.clone();
+        let vertices = scene.vertex_count().max(1);
         let looks = (LOOKED_AT / vertices).clamp(LOOKS[0], LOOKS[1]);
         let mut points = Vec::new();
         for look in 0..looks {
             let share = look as f32 / (looks - 1) as f32;
-            let (scene, _) = self.posed(share * self.duration_s());
+            let _ = pose::stand(&mut scene, &self.clip, share * self.duration_s());
             for (node, part) in scene.drawn_parts() {
                 let placed = scene.positions_world(node, part);
                 let mut used = vec![false; placed.len()];
@@ -94,25 +65,27 @@ impl Playing {
                 points.extend(seen.map(|(point, _)| point));
             }
         }
-        let smoke = smoke.map(|smoke| npr_core::camera::box_corners(smoke.bounds()));
+        let smoke = smoke.map(|smoke| box_corners(smoke.bounds()));
         points.extend(smoke.into_iter().flatten());
-        Stage { points }
+        let bounds = bounds_of(points.iter().copied().map(Into::into));
+        Stage { points, bounds }
     }
 }
 
 /// All places of a film where something is seen.
 pub struct Stage {
     points: Vec<[f32; 3]>,
+    /// The box around them.
+    bounds: ([f32; 3], [f32; 3]),
 }
 
 impl Stage {
     /// The stage with the cameras of the file, as a scene that a camera is chosen for.
     pub fn with_cameras<'a>(&'a self, cameras: &'a [(String, Camera)]) -> Staged<'a> {
-        let bounds = bounds_of(self.points.iter().copied().map(Into::into));
         Staged {
             cameras,
             points: &self.points,
-            bounds,
+            bounds: self.bounds,
         }
     }
 }

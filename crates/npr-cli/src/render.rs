@@ -1,6 +1,6 @@
 //! `npr render`: draws one picture of a scene.
 
-use crate::arguments::{DrawingArguments, RenderArguments};
+use crate::arguments::{DrawingArguments, PoseArguments, RenderArguments};
 use crate::bands::draw_into;
 use crate::dump::dump_style;
 use crate::encoder;
@@ -22,9 +22,7 @@ use crate::viewpoint::{self, Seen};
 use crate::volume::{self, Order};
 use npr_core::camera::Camera;
 use npr_gpu::engine::Engine;
-use npr_render::{
-    Frame, LineModelOptions, Model, RenderError, RendererOptions, Smoke, Subject, facts_of,
-};
+use npr_render::{Frame, LineModelOptions, Model, RendererOptions, Smoke, Subject, facts_of};
 use npr_scene::{Limits, Scene};
 use npr_stylesheet::{Facts, Occasion, Style};
 use std::io::Write;
@@ -64,9 +62,13 @@ pub fn render(args: &RenderArguments) -> Result<(), Fault> {
 fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Frame>, Fault> {
     // Load the scene and look at it, while a device opens.
     let engine = EngineChoice::begin(&job.args.drawing);
-    let mut loaded = load(job, progress)?;
-    let of_pose = pose::pose(&job.args.drawing.pose, &mut loaded.scene)?;
-    let (prepared, smoke) = prepare(job, loaded, &of_pose, progress)?;
+    let loaded = load(job, progress)?;
+    let pose = &job.args.drawing.pose;
+    let Prepared {
+        subject: prepared,
+        smoke,
+        ..
+    } = prepare(job, loaded, Some(pose), progress)?;
     let empty = Smoke::default();
     let smoke_in_it = smoke.as_ref().unwrap_or(&empty);
     let camera = camera_of(&prepared, &job.args.drawing, smoke_in_it)?;
@@ -129,7 +131,7 @@ pub fn camera_of(
     viewpoint::camera(&args.camera, &Seen { model, smoke }, args.size)
 }
 
-/// Prepares a scene for drawing in a style, as a step of the run.
+/// Prepares a scene for drawing in a style.
 pub fn prepared(
     scene: &Scene,
     style: &Style,
@@ -137,22 +139,18 @@ pub fn prepared(
     cache: Option<&Path>,
     progress: &mut Progress,
 ) -> Result<Subject, Fault> {
-    Ok(progress.step("prepare", || subject(scene, style, limits, cache))?)
-}
+    // Prepare surfaces.
+    let model = progress.step("prepare", || Model::cached(scene, cache))?;
 
-/// A scene prepared for drawing in a style: its surfaces, and its lines where the style draws strokes.
-pub fn subject(
-    scene: &Scene,
-    style: &Style,
-    limits: &Limits,
-    cache: Option<&Path>,
-) -> Result<Subject, RenderError> {
-    let options = LineModelOptions {
-        memory_limit: limits.memory_bytes,
-        ..LineModelOptions::default()
-    };
-    let model = Model::cached(scene, cache)?;
-    let lines = Subject::lines(scene, style, &options, cache)?;
+    // Prepare its lines, where the style draws strokes.
+    let mut lines = None;
+    if style.has_curves() {
+        let options = LineModelOptions {
+            memory_limit: limits.memory_bytes,
+            ..LineModelOptions::default()
+        };
+        lines = progress.step("prepare", || Subject::lines(scene, style, &options, cache))?;
+    }
     Ok(Subject { model, lines })
 }
 
@@ -163,13 +161,24 @@ pub fn load(job: &Job<'_>, progress: &mut Progress) -> Result<Loaded, Fault> {
     progress.step("load", || job.source.load(&limits, external))
 }
 
-/// Prepares the scene, as it is posed, and the smoke in it, and warns about what is ignored: of its pose, `of_pose`.
+/// A scene with smoke in it, ready to be drawn.
+pub struct Prepared {
+    /// The scene, prepared for its style.
+    pub subject: Subject,
+    /// The smoke in it.
+    pub smoke: Option<Smoke>,
+    /// What the subject was made of, in the same pose.
+    pub scene: Scene,
+}
+
+/// Prepares the scene and the smoke in it, and warns about what is ignored. The scene takes the pose that is asked for;
+/// without `pose` it rests.
 pub fn prepare(
     job: &Job<'_>,
     mut loaded: Loaded,
-    of_pose: &[String],
+    pose: Option<&PoseArguments>,
     progress: &mut Progress,
-) -> Result<(Subject, Option<Smoke>), Fault> {
+) -> Result<Prepared, Fault> {
     // Refuse to draw over its files.
     let (limits, external) = (
         job.args.drawing.limits.limits(),
@@ -193,16 +202,30 @@ pub fn prepare(
     job.look
         .apply_id_maps(&mut loaded.scene, &limits, external)?;
     let (style, cache) = (&job.look.style, job.cache.as_deref());
-    let prepared = prepared(&loaded.scene, style, &limits, cache, progress)?;
+    let mut scene = loaded.scene;
+    let mut subject = prepared(&scene, style, &limits, cache, progress)?;
+
+    // Pose it. What the style lays on its surface is that of the scene at rest.
+    let mut of_pose = Vec::new();
+    if let Some(args) = pose {
+        of_pose = pose::pose(args, &mut scene)?;
+        if pose::clip_of(args, &scene)?.is_some() {
+            progress.step("pose", || subject.set_pose(&scene))?;
+        }
+    }
 
     // Warn about what was mended, and about keys and options that have no effect.
-    let facts = facts_of(&loaded.scene, smoke.is_some());
+    let facts = facts_of(&scene, smoke.is_some());
     progress.suspend(|| {
-        warn_of(job, &prepared.model, reported.notices.iter());
+        warn_of(job, &subject.model, reported.notices.iter());
         warn_of_idle(&job.look, facts, job.args.drawing.quiet);
         message::warn_all(job.args.drawing.quiet, of_pose.iter().chain(&of_volumes));
     });
-    Ok((prepared, smoke))
+    Ok(Prepared {
+        subject,
+        smoke,
+        scene,
+    })
 }
 
 /// Warns about stated keys of the style that have no effect in pictures of a scene.

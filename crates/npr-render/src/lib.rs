@@ -81,6 +81,7 @@ pub use npr_drawing::lettering::Font;
 pub use npr_vector::stroke::{Drawing, Kind};
 pub use options::{Picture, RendererOptions};
 pub use part_info::PartInfo;
+pub use placement::cameras_of;
 pub use puffs::Following;
 pub use renderer::Renderer;
 pub use sequence::{Frames, Shot};
