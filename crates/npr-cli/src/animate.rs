@@ -351,6 +351,8 @@ fn draw_frames(
     let way = film.way(&frames, (&staged.scene, smoke), &seen)?;
     let options = RendererOptions {
         smoke: smoke.cloned(),
+        // A part of the film must be the same as in the whole.
+        alone: true,
         ..job.options.clone()
     };
 

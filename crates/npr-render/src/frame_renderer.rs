@@ -532,10 +532,10 @@ impl<S: Session> FrameRenderer<S> {
         placement::around(model.bounds(), smoke)
     }
 
-    /// Whether a frame goes on from the one before: not the first, nor after a cut. Tiles of a frame share their
-    /// buffers, so they never do.
+    /// Whether a frame goes on from the one before: not the first, nor after a cut, nor where each stands alone. Tiles
+    /// of a frame share their buffers, so they never do.
     fn follows(&self, view: &View, model: &Model) -> bool {
-        let Some(before) = &self.before else {
+        let Some(before) = self.before.as_ref().filter(|_| !self.plan.options.alone) else {
             return false;
         };
         let turned = Vec3::from(view.forward_world).dot(Vec3::from(before.forward_world));

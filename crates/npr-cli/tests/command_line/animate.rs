@@ -614,3 +614,20 @@ fn the_whole_clip_is_framed() {
         }
     }
 }
+
+/// Lines before a background follow it from frame to frame in a sequence; in films each frame decides for itself.
+#[test]
+fn what_lines_remember_does_not_show_in_parts() {
+    let place = place();
+    let film = "animate box.obj --size 160x90 --backend cpu -q --style toon --background #333 --orbit 4 \
+                --set line.background.method=contrast --set line.color=#000";
+    let draw = |more: &str| {
+        let line = format!("{film} {more}");
+        let words: Vec<&str> = line.split_whitespace().collect();
+        place.npr(&words).assert_silent_success();
+    };
+    draw("--frames 0..9 -o whole_#.png");
+    draw("--frames 0..4 -o parts_#.png");
+    draw("--frames 5..9 -o parts_#.png");
+    assert!(files(&place, "whole_") == files(&place, "parts_"));
+}
