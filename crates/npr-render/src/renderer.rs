@@ -278,7 +278,8 @@ impl<'a> Renderer<'a> {
             ..
         } = &self.frames.plan;
         let stroked = self.lines.as_ref().map(|lines| lines.model().parts());
-        let mut styled = StyledModel::new(&self.model, style, options, stroked.unwrap_or_default())?;
+        let mut styled =
+            StyledModel::new(&self.model, style, options, stroked.unwrap_or_default())?;
         styled.inked.notices.clear();
         let mut plan = FramePlan::new(&self.model, style, options, styled);
         plan.graph_limit = *graph_limit;

@@ -231,7 +231,9 @@ impl Placed {
     }
 
     fn used_points(&self) -> impl Iterator<Item = [f32; 3]> + '_ {
-        self.used().into_iter().map(|vertex| self.world[vertex as usize])
+        self.used()
+            .into_iter()
+            .map(|vertex| self.world[vertex as usize])
     }
 
     /// The stored vertices that triangles and polylines use, in ascending order.
@@ -242,7 +244,10 @@ impl Placed {
             used[*corner as usize] = true;
         }
         let vertices = (0u32..).zip(used);
-        vertices.filter(|(_, used)| *used).map(|(vertex, _)| vertex).collect()
+        vertices
+            .filter(|(_, used)| *used)
+            .map(|(vertex, _)| vertex)
+            .collect()
     }
 }
 

@@ -56,12 +56,16 @@ impl LineModel {
         }
 
         // Keep the radius of the first pose, then move.
-        self.first_radius.get_or_insert(placement::radius_of(self.bounds));
+        self.first_radius
+            .get_or_insert(placement::radius_of(self.bounds));
         set_pose(&mut self.shape, &self.posables.meshes, &poses);
-        let used = poses.iter().zip(&self.posables.used).flat_map(|(pose, used)| {
-            let placed = used.iter().map(|vertex| pose.world[*vertex as usize]);
-            placed.collect::<Vec<_>>()
-        });
+        let used = poses
+            .iter()
+            .zip(&self.posables.used)
+            .flat_map(|(pose, used)| {
+                let placed = used.iter().map(|vertex| pose.world[*vertex as usize]);
+                placed.collect::<Vec<_>>()
+            });
         self.points = used.collect();
         self.move_cards();
 
@@ -115,12 +119,20 @@ impl LineModel {
 
     /// Moves the points of cards' lines with their vertices.
     fn move_cards(&mut self) {
-        let points = self.shape.cards.points().iter().zip(self.shape.cards.vertices());
+        let points = self
+            .shape
+            .cards
+            .points()
+            .iter()
+            .zip(self.shape.cards.vertices());
         let places = points.zip(&self.posables.card_offsets);
         let moved: Vec<(usize, [f32; 3])> = places
             .map(|((point, vertex), offset)| {
                 let from = self.shape.positions[point.vertex as usize];
-                (vertex, std::array::from_fn(|axis| from[axis] + offset[axis]))
+                (
+                    vertex,
+                    std::array::from_fn(|axis| from[axis] + offset[axis]),
+                )
             })
             .collect();
         for (vertex, place) in moved {
@@ -139,7 +151,9 @@ fn poses_of(scene: &Scene) -> Vec<MeshPose> {
         .map(|(node, mesh)| {
             let parts = mesh.parts.iter();
             MeshPose {
-                world: parts.flat_map(|part| scene.positions_world(node, part)).collect(),
+                world: parts
+                    .flat_map(|part| scene.positions_world(node, part))
+                    .collect(),
                 normals: normals_of(mesh),
             }
         })

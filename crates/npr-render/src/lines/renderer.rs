@@ -5,12 +5,12 @@ use super::model::LineModel;
 use super::options::LineOptions;
 use crate::error::RenderError;
 use crate::frame::Frame;
-use crate::options::Picture;
 use crate::model::Model;
+use crate::options::Picture;
 use npr_core::camera::Camera;
 use npr_gpu::engine::{Engine, PassTime};
-use npr_stylesheet::Style;
 use npr_scene::Scene;
+use npr_stylesheet::Style;
 use npr_vector::stroke::Drawing;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -114,8 +114,7 @@ impl<'a> LineRenderer<'a> {
         self.finder.start_view();
         let model = self.posed.as_deref().unwrap_or(self.given);
         let find = self.finder.as_mut();
-        model
-            .draw_with(camera, style, options, behind.as_ref(), find)
+        model.draw_with(camera, style, options, behind.as_ref(), find)
     }
 
     /// The lines of the parts whose style asks for curves that are found as `options` says; smoke hides none of them.
@@ -130,8 +129,7 @@ impl<'a> LineRenderer<'a> {
         self.finder.start_view();
         let model = self.posed.as_deref().unwrap_or(self.given);
         let find = self.finder.as_mut();
-        model
-            .draw_curves(camera, style, (options, is_open), pictures, find)
+        model.draw_curves(camera, style, (options, is_open), pictures, find)
     }
 
     /// How long each pass of the last view took; none on the processor.
