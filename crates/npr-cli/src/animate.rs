@@ -24,7 +24,7 @@ use crate::screening::{Take, screened};
 use crate::source::Source;
 use crate::target::Target;
 use crate::timings::Timings;
-use crate::viewpoint::{self, Orbit, Seen, Viewed};
+use crate::viewpoint::{self, Orbit, Viewed};
 use npr_core::camera::Camera;
 use npr_gpu::engine::{Engine, PassTime};
 use npr_render::{RendererOptions, Shot, Smoke, cameras_of};
@@ -118,8 +118,11 @@ enum Format {
 }
 
 impl Format {
-    /// The format of the files that a name stands for.
+    /// The format of the files that a name stands for; `-` takes a .png.
     fn of(path: &Path) -> Result<Self, Fault> {
+        if path.as_os_str() == "-" {
+            return Ok(Self::Pictures(PictureFormat::Png));
+        }
         let formats = [
             ("png", Self::Pictures(PictureFormat::Png)),
             ("exr", Self::Pictures(PictureFormat::Exr)),
@@ -342,13 +345,8 @@ fn draw_frames(
     // Prepare it, and place the camera.
     let staged = render::prepare(&job, loaded, frames.held(&args.drawing), progress)?;
     film.tell_idle(&frames, progress);
-    let (subject, smoke) = (&staged.subject, staged.smoke.as_ref());
-    let none = Smoke::default();
-    let seen = Seen {
-        model: &subject.model,
-        smoke: smoke.unwrap_or(&none),
-    };
-    let way = film.way(&frames, (&staged.scene, smoke), &seen)?;
+    let smoke = staged.smoke.as_ref();
+    let way = film.way(&frames, (&staged.scene, smoke), &staged.seen()?)?;
     let options = RendererOptions {
         smoke: smoke.cloned(),
         // A part of the film must be the same as in the whole.
@@ -359,12 +357,12 @@ fn draw_frames(
     // Draw all frames.
     let encoding = match format {
         PictureFormat::Png => Encoding::Png { keep_alpha },
-        PictureFormat::Exr => Encoding::Exr(subject.model.object_names()),
+        PictureFormat::Exr => Encoding::Exr(staged.subject.model.object_names()),
     };
     let reel = film.reel(&frames, (options.size, keep_alpha), encoding);
     let drawn = screened(reel, args.drawing.quiet, progress, |screening, progress| {
         let pictures = |engine: &dyn Engine| {
-            let mut renderer = subject.renderer(engine, &job.look.style, &options)?;
+            let mut renderer = staged.renderer(engine, (&job.look.style, &options))?;
             let Some(playing) = &frames.playing else {
                 let cameras = frames.numbers.iter().map(|number| way.still(*number));
                 return screening.show_all(renderer, cameras.map(Shot::from));

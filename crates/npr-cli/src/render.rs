@@ -22,9 +22,13 @@ use crate::viewpoint::{self, Seen};
 use crate::volume::{self, Order};
 use npr_core::camera::Camera;
 use npr_gpu::engine::Engine;
-use npr_render::{Frame, LineModelOptions, Model, RendererOptions, Smoke, Subject, facts_of};
+use npr_render::{
+    Frame, LineModelOptions, Model, RenderError, Renderer, RendererOptions, Smoke, Subject,
+    facts_of,
+};
 use npr_scene::{Limits, Scene};
 use npr_stylesheet::{Facts, Occasion, Style};
+use std::borrow::Cow;
 use std::io::Write;
 use std::path::Path;
 
@@ -64,16 +68,11 @@ fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Frame>, Fault> {
     let engine = EngineChoice::begin(&job.args.drawing);
     let loaded = load(job, progress)?;
     let pose = &job.args.drawing.pose;
-    let Prepared {
-        subject: prepared,
-        smoke,
-        ..
-    } = prepare(job, loaded, Some(pose), progress)?;
-    let empty = Smoke::default();
-    let smoke_in_it = smoke.as_ref().unwrap_or(&empty);
-    let camera = camera_of(&prepared, &job.args.drawing, smoke_in_it)?;
+    let prepared = prepare(job, loaded, Some(pose), progress)?;
+    let seen = prepared.seen()?;
+    let camera = viewpoint::camera(&job.args.drawing.camera, &seen, job.args.drawing.size)?;
     let options = RendererOptions {
-        smoke,
+        smoke: prepared.smoke.clone(),
         in_bands: true,
         ..job.options.clone()
     };
@@ -102,7 +101,7 @@ fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Frame>, Fault> {
     if !is_written {
         let bytes = progress.step("encode", || match job.format {
             PictureFormat::Png => encoder::png(frame.size, &frame.rgba, job.look.is_transparent()),
-            PictureFormat::Exr => layers::exr(&mut frame, &prepared.model.object_names()),
+            PictureFormat::Exr => layers::exr(&mut frame, &prepared.subject.model.object_names()),
         })?;
         progress.step("write", || output.write(&bytes))?;
     }
@@ -127,8 +126,11 @@ pub fn camera_of(
     args: &DrawingArguments,
     smoke: &Smoke,
 ) -> Result<Camera, Fault> {
-    let model = &subject.model;
-    viewpoint::camera(&args.camera, &Seen { model, smoke }, args.size)
+    let seen = Seen {
+        model: Cow::Borrowed(&subject.model),
+        smoke: Cow::Borrowed(smoke),
+    };
+    viewpoint::camera(&args.camera, &seen, args.size)
 }
 
 /// Prepares a scene for drawing in a style.
@@ -163,12 +165,42 @@ pub fn load(job: &Job<'_>, progress: &mut Progress) -> Result<Loaded, Fault> {
 
 /// A scene with smoke in it, ready to be drawn.
 pub struct Prepared {
-    /// The scene, prepared for its style.
+    /// The scene at rest, prepared for its style.
     pub subject: Subject,
     /// The smoke in it.
     pub smoke: Option<Smoke>,
-    /// What the subject was made of, in the same pose.
+    /// What the subject was made of, in the pose that is drawn.
     pub scene: Scene,
+    /// Whether that is another pose than the one at rest.
+    is_posed: bool,
+}
+
+impl Prepared {
+    /// What a camera is placed by.
+    pub fn seen(&self) -> Result<Seen<'_>, RenderError> {
+        let mut model = Cow::Borrowed(&self.subject.model);
+        if self.is_posed {
+            model.to_mut().set_pose(&self.scene)?;
+        }
+        let smoke = self.smoke.clone().unwrap_or_default();
+        Ok(Seen {
+            model,
+            smoke: Cow::Owned(smoke),
+        })
+    }
+
+    /// A renderer of the pose. What its style lays on surfaces is that of the scene at rest.
+    pub fn renderer<'a>(
+        &'a self,
+        engine: &'a dyn Engine,
+        (style, options): (&Style, &RendererOptions),
+    ) -> Result<Renderer<'a>, RenderError> {
+        let mut renderer = self.subject.renderer(engine, style, options)?;
+        if self.is_posed {
+            renderer.set_pose(&self.scene)?;
+        }
+        Ok(renderer)
+    }
 }
 
 /// Prepares the scene and the smoke in it, and warns about what is ignored. The scene takes the pose that is asked for;
@@ -203,15 +235,13 @@ pub fn prepare(
         .apply_id_maps(&mut loaded.scene, &limits, external)?;
     let (style, cache) = (&job.look.style, job.cache.as_deref());
     let mut scene = loaded.scene;
-    let mut subject = prepared(&scene, style, &limits, cache, progress)?;
+    let subject = prepared(&scene, style, &limits, cache, progress)?;
 
-    // Pose it. What the style lays on its surface is that of the scene at rest.
-    let mut of_pose = Vec::new();
+    // Pose the scene.
+    let (mut of_pose, mut is_posed) = (Vec::new(), false);
     if let Some(args) = pose {
         of_pose = pose::pose(args, &mut scene)?;
-        if pose::clip_of(args, &scene)?.is_some() {
-            progress.step("pose", || subject.set_pose(&scene))?;
-        }
+        is_posed = pose::clip_of(args, &scene)?.is_some();
     }
 
     // Warn about what was mended, and about keys and options that have no effect.
@@ -225,6 +255,7 @@ pub fn prepare(
         subject,
         smoke,
         scene,
+        is_posed,
     })
 }
 
@@ -244,7 +275,7 @@ fn warn_of<'a>(job: &Job<'_>, model: &'a Model, of_smoke: impl Iterator<Item = &
 
 fn draw_frame(
     (job, engine, output): (&Job<'_>, &EngineChoice<'_>, &Output),
-    prepared: &Subject,
+    prepared: &Prepared,
     options: &RendererOptions,
     camera: &Camera,
     progress: &mut Progress,
@@ -253,7 +284,7 @@ fn draw_frame(
     let counter = progress.counter();
     let tell = |done, of| counter.tell(DRAW, done, of);
     let picture = |engine: &dyn Engine| {
-        let renderer = prepared.renderer(engine, &job.look.style, options)?;
+        let renderer = prepared.renderer(engine, (&job.look.style, options))?;
         let mut renderer = renderer.with_progress(&tell);
         if !renderer.draws_bands() {
             return renderer.draw(camera).map(Picture::Whole);

@@ -5,6 +5,7 @@ use crate::fault::{Exit, Fault};
 use crate::message;
 use npr_core::camera::{Camera, DEFAULT_FOV_DEG};
 use npr_render::{LineModel, Model, Smoke};
+use std::borrow::Cow;
 
 /// Most cameras that a message lists.
 const LISTED_CAMERAS: usize = 5;
@@ -42,9 +43,9 @@ impl Viewed for LineModel {
 /// A model together with smoke.
 pub struct Seen<'a> {
     /// The model.
-    pub model: &'a Model,
+    pub model: Cow<'a, Model>,
     /// The smoke, perhaps none.
-    pub smoke: &'a Smoke,
+    pub smoke: Cow<'a, Smoke>,
 }
 
 impl Viewed for Seen<'_> {
@@ -53,15 +54,15 @@ impl Viewed for Seen<'_> {
     }
 
     fn bounds(&self) -> ([f32; 3], [f32; 3]) {
-        self.model.bounds_with(self.smoke)
+        self.model.bounds_with(&self.smoke)
     }
 
     fn framing(&self, aspect: f32, fov_y: f32) -> Camera {
-        self.model.framing_with(self.smoke, aspect, fov_y)
+        self.model.framing_with(&self.smoke, aspect, fov_y)
     }
 
     fn framing_around(&self, axis: [[f32; 3]; 2], view: (f32, f32)) -> Camera {
-        self.model.framing_around(self.smoke, axis, view)
+        self.model.framing_around(&self.smoke, axis, view)
     }
 }
 
