@@ -619,8 +619,8 @@ fn the_whole_clip_is_framed() {
 #[test]
 fn what_lines_remember_does_not_show_in_parts() {
     let place = place();
-    let film = "animate box.obj --size 160x90 --backend cpu -q --style toon --background #333 --orbit 4 \
-                --set line.background.method=contrast --set line.color=#000";
+    let film = "animate box.obj --size 320x180 --backend cpu -q --style toon --background #777 --orbit 3 \
+                --set line.background.method=contrast --set line.color=#777";
     let draw = |more: &str| {
         let line = format!("{film} {more}");
         let words: Vec<&str> = line.split_whitespace().collect();
