@@ -49,7 +49,7 @@ fn assert_goes_on(
 
         // Make one for the pose: a subject that was put into it before there was a renderer, or after where charts of
         // strokes are laid on the surface at rest.
-        let is_hatched = style.ink.hatch.pattern != Pattern::None;
+        let is_hatched = style.ink.tone != Style::default().ink.tone;
         let mut fresh = Subject::new(rest, style).unwrap();
         if !is_hatched {
             fresh.set_pose(&scene).unwrap();
@@ -147,11 +147,11 @@ fn a_posed_model_is_the_one_that_is_made_of_the_posed_scene() {
             assert_eq!(moved.model.bounds(), fresh.model.bounds());
             assert_eq!(moved.model.cameras(), fresh.model.cameras());
 
-            // Curvature and radius, which widths hang on, are those of rest; all else is the same.
+            // Curvature and radius are those of rest, so lines are a shade wider or narrower; all else is the same.
             let [moved, fresh] = [&moved, &fresh].map(|subject| draw(subject, &camera));
-            let agreement = Agreement::between(&moved, &fresh, 2);
+            let agreement = Agreement::between(&moved, &fresh, 8);
             assert!(
-                agreement.within >= 0.99,
+                agreement.within >= 0.999,
                 "normals {has_normals} at {moment:?}: {agreement}"
             );
         }
