@@ -1,11 +1,10 @@
 //! Meshes that bend with a pose, by a skin or by morphs: what is kept of them, so that their folds and vertices follow
 //! without anything being welded or joined anew.
 
-use crate::instance::{self, HARD_EDGE, folds};
+use crate::instance::{self, HARD_EDGE, Kept, folds};
 use crate::joined::Joined;
 use npr_core::geometry::{Edge, Triangle, Vertex};
 use npr_core::math;
-use npr_mesh::Weld;
 use npr_scene::{Node, Part, Scene};
 
 /// A mesh at a node whose shape a pose may change.
@@ -21,13 +20,6 @@ pub(crate) struct Bending {
     pub mirrored: bool,
 }
 
-/// What is kept of the preparation of a mesh.
-#[derive(Debug, Clone)]
-pub(crate) struct Kept {
-    pub weld: Weld,
-    pub edges: Vec<npr_mesh::Edge>,
-}
-
 /// What of a model changed with its pose, besides its matrices.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(crate) struct Moved {
@@ -41,13 +33,6 @@ pub(crate) struct Lists<'a> {
     pub triangles: &'a [Triangle],
     pub edges: &'a mut [Edge],
     pub normals_cos: &'a mut [f32],
-}
-
-/// Whether a pose may bend the mesh of a node, and not only carry it along.
-pub(crate) fn bends(scene: &Scene, node: &Node, parts: &[&Part]) -> bool {
-    let skin = node.skin.and_then(|skin| scene.skins.get(skin as usize));
-    let is_skinned = skin.is_some_and(|skin| skin.joints.len() > 1);
-    is_skinned || parts.iter().any(|part| part.unmorphed.is_some())
 }
 
 /// The parts of a node's mesh that have surfaces.

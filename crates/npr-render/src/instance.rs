@@ -1,7 +1,6 @@
 //! One node's mesh, ready to be joined with the others: welded, with edges, normals and curvature.
 
 use crate::bend;
-use crate::bending::{Kept, bends};
 use crate::joined::Joined;
 use crate::kept::Cache;
 use npr_core::geometry::{self, Influence, Triangle, Vertex};
@@ -42,6 +41,13 @@ pub(crate) struct Piece {
     pub part: u32,
     /// Number of the component.
     pub component: u32,
+}
+
+/// What is kept of the preparation of a mesh.
+#[derive(Debug, Clone)]
+pub(crate) struct Kept {
+    pub weld: Weld,
+    pub edges: Vec<npr_mesh::Edge>,
 }
 
 impl Instance {
@@ -199,6 +205,13 @@ impl Instance {
             }
         }
     }
+}
+
+/// Whether a pose may bend the mesh of a node, and not only carry it along.
+fn bends(scene: &Scene, node: &Node, parts: &[&Part]) -> bool {
+    let skin = node.skin.and_then(|skin| scene.skins.get(skin as usize));
+    let is_skinned = skin.is_some_and(|skin| skin.joints.len() > 1);
+    is_skinned || parts.iter().any(|part| part.unmorphed.is_some())
 }
 
 /// The vertices of all parts, without curvature.

@@ -37,6 +37,7 @@ mod material;
 mod matrix;
 mod mesh;
 mod morph;
+mod morphing;
 mod node;
 mod notice;
 mod obj;

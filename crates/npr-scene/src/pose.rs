@@ -1,8 +1,9 @@
 //! Poses: how a scene stands at a moment of a clip, or as anybody else puts it.
 //!
 //! A [`Pose`] holds what differs from the scene at rest: the empty one is the rest pose. [`Scene::pose_at`] takes one
-//! from a clip, [`Scene::set_pose`] puts the scene into one: nodes get their places, and with them joints, cameras and
-//! lights; morphs get their weights. Meshes, skins and all numbering stay, so what was prepared of the scene can follow.
+//! from a clip, [`Scene::set_pose`] puts the scene into one: nodes get their places, and with them joints, cameras
+//! and lights; morphs get their weights. Meshes, skins and all numbering stay, so what was prepared of the scene can
+//! follow.
 
 use crate::clip::{Clip, Property};
 use crate::matrix::{self, Matrix};

@@ -1,5 +1,6 @@
 //! Renderers that go from pose to pose, on both engines: their pictures are those of renderers made for each pose.
 
+use npr_core::camera::Camera;
 use npr_gpu::engine::Engine;
 use npr_gpu::processor::Processor;
 use npr_render::{Frame, RendererOptions, Subject};
@@ -46,10 +47,17 @@ fn assert_goes_on(
         renderer.set_pose(&scene).unwrap();
         let frame = renderer.draw(&camera).unwrap();
 
-        // Make one for the pose: a subject that was put into it before there was a renderer.
+        // Make one for the pose: a subject that was put into it before there was a renderer, or after where charts of
+        // strokes are laid on the surface at rest.
+        let is_hatched = style.ink.tone != Style::default().ink.tone;
         let mut fresh = Subject::new(rest, style).unwrap();
-        fresh.set_pose(&scene).unwrap();
+        if !is_hatched {
+            fresh.set_pose(&scene).unwrap();
+        }
         let mut made = fresh.renderer(engine, style, &options).unwrap();
+        if is_hatched {
+            made.set_pose(&scene).unwrap();
+        }
         let wanted = made.draw(&camera).unwrap();
         assert!(frame.rgba == wanted.rgba, "{what} at {moment:?}");
         assert_eq!(
@@ -123,7 +131,7 @@ fn shared_models_go_from_pose_to_pose() {
 #[test]
 fn a_posed_model_is_the_one_that_is_made_of_the_posed_scene() {
     let style = style("toon", &[]);
-    let draw = |subject: &Subject, camera| {
+    let draw = |subject: &Subject, camera: &Camera| {
         let options = RendererOptions::new(SIZE);
         let mut renderer = subject.renderer(&Processor, &style, &options).unwrap();
         renderer.draw(camera).unwrap()
@@ -139,11 +147,11 @@ fn a_posed_model_is_the_one_that_is_made_of_the_posed_scene() {
             assert_eq!(moved.model.bounds(), fresh.model.bounds());
             assert_eq!(moved.model.cameras(), fresh.model.cameras());
 
-            // Curvature and radius, which widths hang on, are those of rest; all else is the same.
+            // Curvature and radius are those of rest, so lines are a shade wider or narrower; all else is the same.
             let [moved, fresh] = [&moved, &fresh].map(|subject| draw(subject, &camera));
-            let agreement = Agreement::between(&moved, &fresh, 2);
+            let agreement = Agreement::between(&moved, &fresh, 8);
             assert!(
-                agreement.within >= 0.99,
+                agreement.within >= 0.999,
                 "normals {has_normals} at {moment:?}: {agreement}"
             );
         }

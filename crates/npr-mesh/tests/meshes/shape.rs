@@ -625,6 +625,7 @@ proptest! {
         // Few places make faces without area, and many faces on an edge make wedges.
         let real = |rows: &[[i8; 3]]| -> Vec<[f32; 3]> { rows.iter().map(|row| row.map(f32::from)).collect() };
         let rest: Vec<[f32; 3]> = (0..9).map(|i| [i as f32, (i * i) as f32, 0.5]).collect();
+        let worlds: Vec<Vec<[f32; 3]>> = poses.iter().map(|pose| real(pose)).collect();
         let of_face = vec![0; faces.len()];
         let normals = if has_normals { real(&normals) } else { Vec::new() };
         let mesh = |world| PlacedMesh {
@@ -635,14 +636,13 @@ proptest! {
         let (_, first) = add_posable_mesh(&mut shape, &mesh(&rest), 0.0);
         let (_, second) = add_posable_mesh(&mut shape, &plain(&rest), 0.0);
         let meshes = [first, second];
-        for pose in &poses {
-            let world = real(pose);
+        for world in &worlds {
             let moved = [normals.clone(), Vec::new()].map(|normals| MeshPose { world: world.clone(), normals });
             set_pose(&mut shape, &meshes, &moved);
             shape.sanity_check();
             let mut fresh = surfaces(1);
-            add_mesh(&mut fresh, &mesh(&world), 0.0);
-            add_mesh(&mut fresh, &plain(&world), 0.0);
+            add_mesh(&mut fresh, &mesh(world), 0.0);
+            add_mesh(&mut fresh, &plain(world), 0.0);
             prop_assert_eq!(&shape, &fresh);
         }
     }

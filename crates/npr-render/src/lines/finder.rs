@@ -8,8 +8,8 @@ use npr_vector::mesh_lines::contour::{EdgeContours, Eye};
 use npr_vector::pixel_strokes::stroke::Loops;
 use npr_vector::pixel_strokes::{PixelScene, PublishedPath, Traced, scene_depths, trace};
 
-/// Finds the lines of a shape, the same one in every view, in whatever pose. `meanwhile` is what the processor can do while a device finds them, and is called once;
-/// where there is no device it is left to whoever needs it.
+/// Finds the lines of a shape, the same one in every view, in whatever pose. `meanwhile` is what the processor can do
+/// while a device finds them, and is called once; where there is no device it is left to whoever needs it.
 pub(crate) trait Finder {
     /// Contours along mesh edges.
     fn contours(

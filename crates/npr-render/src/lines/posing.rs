@@ -7,22 +7,9 @@ use crate::file_light;
 use crate::kept::Cache;
 use crate::placement;
 use glam::Vec3;
-use npr_mesh::shape::{MeshPose, PosableMesh, set_pose};
+use npr_mesh::shape::{MeshPose, set_pose};
 use npr_scene::{Mesh, Scene};
 use std::sync::{Mutex, OnceLock};
-
-/// What a line model keeps of its meshes, so that they can take other poses.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Posables {
-    /// The meshes, in the order of the nodes that they are drawn at.
-    pub meshes: Vec<PosableMesh>,
-    /// Of every mesh: the stored vertices that triangles and lines use, which views frame.
-    pub used: Vec<Vec<u32>>,
-    /// Of every mesh: how many vertices are stored.
-    pub vertex_counts: Vec<usize>,
-    /// Of every point of a card's line: how far it lies from the vertex that it has its colour of.
-    pub card_offsets: Vec<[f32; 3]>,
-}
 
 impl LineModel {
     /// Moves the model into the pose of a scene: the one that it was made of, with other places of nodes and joints,

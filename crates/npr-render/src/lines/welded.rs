@@ -2,13 +2,12 @@
 
 use super::LineModelOptions;
 use super::assembly::{Assembly, place_key};
-use super::posing::Posables;
 use crate::error::RenderError;
 use crate::part_info::PartInfo;
 use npr_core::budget::Budget;
 use npr_core::edge_flags::EdgeFlags;
 use npr_mesh::half_edge::HalfEdgeMesh;
-use npr_mesh::shape::{Preparation, add_posable_mesh};
+use npr_mesh::shape::{PosableMesh, Preparation, add_posable_mesh};
 use npr_scene::Scene;
 
 /// Bytes of a shape and its hierarchy for every triangle, its three half-edges and its share of the vertices.
@@ -40,6 +39,19 @@ pub(super) fn check_budget(
         BYTES_PER_POLYLINE,
     )?;
     Ok(())
+}
+
+/// What a line model keeps of its meshes, so that they can take other poses.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Posables {
+    /// The meshes, in the order of the nodes that they are drawn at.
+    pub meshes: Vec<PosableMesh>,
+    /// Of every mesh: the stored vertices that triangles and lines use, which views frame.
+    pub used: Vec<Vec<u32>>,
+    /// Of every mesh: how many vertices are stored.
+    pub vertex_counts: Vec<usize>,
+    /// Of every point of a card's line: how far it lies from the vertex that it has its colour of.
+    pub card_offsets: Vec<[f32; 3]>,
 }
 
 /// The welded shape of an assembly, what became of its meshes, and what other poses need of them.

@@ -1,4 +1,4 @@
-//! Animations of glTF files: what is sound is played, what is broken is told of, and the rest pose is drawn in any case.
+//! Animations of glTF files: what is sound is played, what is broken is told of, and the file is drawn in any case.
 
 use npr_scene::testing::glb;
 use npr_scene::{Format, Limits, MemoryResources, Pose, Property, Scene, SceneError, load_bytes};
@@ -58,7 +58,8 @@ impl Leg<'_> {
         };
         let json = format!(
             r#"{{"asset":{{"version":"2.0"}},"scenes":[{{"nodes":[0]}}],"nodes":[{}],
-            "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}},"targets":[{{"POSITION":0}},{{"POSITION":0}}]}}]}}],
+            "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}},
+            "targets":[{{"POSITION":0}},{{"POSITION":0}}]}}]}}],
             "accessors":[{{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}},
             {{"bufferView":0,"byteOffset":36,"componentType":5126,"count":{times},"type":"SCALAR"}},
             {{"bufferView":0,"byteOffset":{},"componentType":5126,"count":{},"type":"{}"}}{}],
