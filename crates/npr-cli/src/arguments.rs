@@ -1,15 +1,18 @@
 //! The arguments of the command line, as clap parses them.
 
+mod animate;
 mod byte_count;
 mod cache;
 mod camera;
 mod deferred;
 mod drawing;
+mod frames;
 mod limits;
 mod lines;
 mod look;
 mod outline;
 mod point;
+mod pose;
 mod render;
 mod size;
 mod smoke;
@@ -17,10 +20,12 @@ mod trace;
 mod trace_form;
 mod volume;
 
+pub use animate::{AnimateArguments, FilmArguments};
 pub use cache::CacheArguments;
 pub use camera::CameraArguments;
 pub use deferred::Deferred;
 pub use drawing::{Backend, DrawingArguments, TimingsForm};
+pub use frames::Frames;
 pub use limits::LimitArguments;
 pub use lines::{
     HiddenLines, LineArguments, LineFormat, LinesArguments, PaintedName, PathForm, SheetArguments,
@@ -29,6 +34,7 @@ pub use lines::{
 pub use look::LookArguments;
 pub use outline::{Behind, OutlineArguments};
 pub use point::Point;
+pub use pose::PoseArguments;
 pub use render::RenderArguments;
 pub use size::Size;
 pub use smoke::SmokeArguments;
@@ -61,6 +67,13 @@ pub enum Command {
     /// Without options, `npr lines model.glb` draws the model from three quarters above and writes model.svg
     /// into the current folder.
     Lines(Box<Deferred<LinesArguments>>),
+    /// Draw a film of a scene: a picture or a line drawing for every frame, or all frames in one file.
+    ///
+    /// Without options, `npr animate model.glb --turntable` turns the camera once around the model in the style `toon`
+    /// and writes model_0000.png and so on into the current folder; `-o model.gif` writes one file that plays. What a
+    /// frame shows follows from its number alone: a film may be drawn in parts, `--length 240 --frames 0..59` and so
+    /// on, with the same bytes.
+    Animate(Box<Deferred<AnimateArguments>>),
     /// Draw cartoon smoke: from a built-in simulation, a volume file, or a series of them.
     ///
     /// Without options, `npr smoke plume` lets a plume rise and writes plume.png into the current folder;
@@ -107,7 +120,12 @@ impl Command {
     pub fn draws(&self) -> bool {
         matches!(
             self,
-            Self::Render(_) | Self::Lines(_) | Self::Smoke(_) | Self::Trace(_) | Self::Outline(_)
+            Self::Render(_)
+                | Self::Lines(_)
+                | Self::Animate(_)
+                | Self::Smoke(_)
+                | Self::Trace(_)
+                | Self::Outline(_)
         )
     }
 
@@ -116,6 +134,7 @@ impl Command {
         let backend = match self {
             Self::Render(arguments) => arguments.0.drawing.backend,
             Self::Lines(arguments) => arguments.0.drawing.backend,
+            Self::Animate(arguments) => arguments.0.drawing.backend,
             Self::Smoke(arguments) => arguments.0.drawing.backend,
             Self::Doctor { .. } => return true,
             _ => return false,
@@ -180,7 +199,7 @@ mod tests {
     fn commands_say_what_they_do() {
         let mut command = <Arguments as clap::CommandFactory>::command();
         command.build();
-        for name in ["render", "lines", "smoke", "trace", "outline"] {
+        for name in ["render", "lines", "animate", "smoke", "trace", "outline"] {
             let found = command.find_subcommand(name).expect("a command");
             let long = found.get_long_about().map(ToString::to_string);
             assert!(long.is_some_and(|text| text.contains("Without options, `npr ")));

@@ -57,7 +57,7 @@ fn own_colors(pixels: &[[u8; 3]], most: usize) -> Option<Numbered> {
 
 /// A palette of at most `most` colours by the method of [Wu 1991]. A pixel gets the colour of its part of the colour
 /// space.
-fn found_colors(pixels: &[[u8; 3]], most: u16) -> Result<Numbered, Fault> {
+pub fn found_colors(pixels: &[[u8; 3]], most: u16) -> Result<Numbered, Fault> {
     let broken = |error: &dyn std::fmt::Display| Fault::new(Exit::Failed, error);
     let size = PaletteSize::try_from(most).map_err(|error| broken(&error))?;
     let pixels = palette::cast::from_array_slice::<Srgb<u8>>(pixels);

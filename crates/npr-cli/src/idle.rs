@@ -1,8 +1,8 @@
 //! The warnings about options that have no effect, each with the reason.
 
 use crate::arguments::{
-    HiddenLines, LineFormat, LinesArguments, PathForm, SmokeArguments, Switch, TraceArguments,
-    VolumeArguments, VolumeUp,
+    AnimateArguments, HiddenLines, LineFormat, LinesArguments, PathForm, SmokeArguments, Switch,
+    TraceArguments, VolumeArguments, VolumeUp,
 };
 use crate::line_job::LineJob;
 use crate::volume::{DEFAULT_FPS, DEFAULT_STEP, Order, VolumeSource};
@@ -207,6 +207,66 @@ pub fn of_lines(job: &LineJob<'_>, facts: Facts, has_brushes: bool) -> Vec<Strin
         has_brushes,
     };
     reported(&line_entries(), &case)
+}
+
+/// The facts that decide which options of `npr animate` have an effect.
+struct Animate<'a> {
+    args: &'a AnimateArguments,
+    /// Whether frames are line drawings.
+    draws_lines: bool,
+    /// Whether a clip plays, or the film is one file, which says how fast it does.
+    is_timed: bool,
+}
+
+/// The entry of an option about line drawings.
+const fn of_line_films<'a>(
+    option: &'static str,
+    is_said: fn(&Animate<'a>) -> bool,
+) -> Entry<Animate<'a>> {
+    let why = "frames are pictures: --lines draws the lines alone";
+    entry(option, is_said, |c| !c.draws_lines, why)
+}
+
+/// The conditions under which options of `npr animate` have no effect.
+fn animate_entries<'a>() -> Vec<Entry<Animate<'a>>> {
+    vec![
+        entry(
+            "--fps",
+            |c| c.args.film.fps != DEFAULT_FPS,
+            |c| !c.is_timed && (c.args.film.frames.is_some() || c.args.film.length.is_some()),
+            "every file holds one frame, and no clip plays",
+        ),
+        entry(
+            "--length",
+            |c| c.args.film.length.is_some(),
+            |c| c.args.film.frames.is_some() && !c.args.film.turntable,
+            "--frames says what is drawn, and --orbit by how much the camera turns",
+        ),
+        of_line_films("--kinds", |c| c.args.lines.kinds.is_some()),
+        of_line_films("--crease", |c| c.args.lines.crease.is_some()),
+        of_line_films("--crease-from", |c| c.args.lines.crease_from.is_some()),
+        of_line_films("--split", |c| c.args.lines.split.is_some()),
+        of_line_films("--method", |c| c.args.lines.method != LineSource::default()),
+        of_line_films("--hidden", |c| c.args.lines.hidden != HiddenLines::None),
+        of_line_films("--smooth", |c| c.args.lines.smooth == Switch::Off),
+        of_line_films("--fill", |c| c.args.lines.fill),
+        of_line_films("--painted", |c| c.args.lines.painted.is_some()),
+        of_line_films("--weld", |c| c.args.lines.weld != 0.0),
+        of_line_films("--svg", |c| c.args.sheet.svg != PathForm::Outline),
+        of_line_films("--page", |c| c.args.sheet.page.is_some()),
+    ]
+}
+
+/// The warnings about options of `npr animate` that have no effect; see [`Animate`].
+pub fn of_animate(args: &AnimateArguments, draws_lines: bool, is_timed: bool) -> Vec<String> {
+    reported(
+        &animate_entries(),
+        &Animate {
+            args,
+            draws_lines,
+            is_timed,
+        },
+    )
 }
 
 /// The facts that decide which options of `npr smoke` have an effect; `count` is the number of pictures.

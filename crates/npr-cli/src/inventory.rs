@@ -28,7 +28,7 @@ pub struct Inventory {
     /// Triangles of all instances.
     drawn_triangle_count: usize,
     drawn_line_segment_count: usize,
-    /// Bounding box in world space, in the pose of the file; `None` where nothing is drawn.
+    /// Bounding box in world space, at rest; `None` where nothing is drawn.
     bounds: Option<Bounds>,
     drawn: Vec<Drawn>,
     materials: Vec<Material>,
@@ -36,6 +36,7 @@ pub struct Inventory {
     cameras: Vec<Named>,
     lights: Vec<Named>,
     skins: Vec<Skin>,
+    clips: Vec<Clip>,
     extensions: Vec<String>,
     /// What was ignored or mended, and why.
     ignored: Vec<String>,
@@ -87,6 +88,14 @@ struct Skin {
     joint_count: usize,
 }
 
+/// A clip, under the name that `--clip` takes; its place in the list is its number.
+#[derive(Debug, Clone, Serialize)]
+struct Clip {
+    name: String,
+    duration_s: f32,
+    channel_count: usize,
+}
+
 impl Inventory {
     /// The inventory of a scene from the file that the user named `file`.
     pub fn new(file: &str, loaded: Loaded) -> Self {
@@ -115,6 +124,7 @@ impl Inventory {
             cameras: cameras(&scene),
             lights: lights(&scene),
             skins: scene.skins.iter().map(skin).collect(),
+            clips: scene.clips.iter().map(clip).collect(),
             ignored: ignored(&scene),
             name: scene.name,
             generator: scene.generator,
@@ -225,5 +235,13 @@ fn skin(skin: &npr_scene::Skin) -> Skin {
     Skin {
         name: skin.name.clone(),
         joint_count: skin.joints.len(),
+    }
+}
+
+fn clip(clip: &npr_scene::Clip) -> Clip {
+    Clip {
+        name: clip.name.clone(),
+        duration_s: clip.duration_s(),
+        channel_count: clip.channels.len(),
     }
 }

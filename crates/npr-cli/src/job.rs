@@ -7,6 +7,7 @@ use crate::look::Look;
 use crate::message::quoted;
 use crate::output::Output;
 use crate::source::{Source, has_volume_name};
+use crate::target::Target;
 use crate::volume::USUAL_STYLE;
 use npr_render::RendererOptions;
 use std::path::{Path, PathBuf};
@@ -29,9 +30,9 @@ pub struct Job<'a> {
     pub args: &'a RenderArguments,
     /// The source of the scene.
     pub source: Source,
-    /// The destination of the picture.
-    pub output: Output,
-    /// The format of its file.
+    /// The destination of the picture, or of the frames of a film.
+    pub target: Target,
+    /// The format of their files.
     pub format: PictureFormat,
     /// The resolved style.
     pub look: Look,
@@ -51,7 +52,16 @@ impl<'a> Job<'a> {
             let message = "--debug-layer shows one layer as a picture: write it as .png";
             return Err(Fault::new(Exit::Usage, message));
         }
-        let output = Output::of(&path)?;
+        Self::drawn_into(args, source, Target::One(Output::of(&path)?), format)
+    }
+
+    /// The job of pictures in a format that go to a target.
+    pub fn drawn_into(
+        args: &'a RenderArguments,
+        source: Source,
+        target: Target,
+        format: PictureFormat,
+    ) -> Result<Self, Fault> {
         let external = args.drawing.allow_external.as_deref();
         let look = Look::resolve(&args.look(), external)?.with_smoke(&args.drawing.volumes);
         let small = renderer_options(&args.drawing, &look)?;
@@ -66,7 +76,7 @@ impl<'a> Job<'a> {
         Ok(Self {
             args,
             source,
-            output,
+            target,
             format,
             look,
             options,
@@ -135,6 +145,17 @@ pub fn check_ending(path: &Path) -> Result<(), Fault> {
         quoted(path)
     );
     Err(Fault::new(Exit::Usage, message))
+}
+
+/// The path that the user gave, or else the scene's name with `_####.png`, in the current folder.
+pub fn film_path(asked: Option<&Path>, source: &Source) -> Result<PathBuf, Fault> {
+    match (asked, source) {
+        (None, Source::File(scene)) => {
+            let name = scene.file_stem().unwrap_or_default().to_string_lossy();
+            Ok(PathBuf::from(format!("{name}_####.png")))
+        }
+        _ => output_path(asked, source, "png"),
+    }
 }
 
 /// The path that the user gave, or else the scene's name with the extension `ending`, in the current folder.

@@ -10,6 +10,7 @@
 //! ```
 
 mod adapter_report;
+mod animate;
 mod arguments;
 mod bands;
 mod broken_image;
@@ -22,6 +23,7 @@ mod encoder;
 mod ending;
 mod engine;
 mod fault;
+mod film_plan;
 #[cfg(feature = "gpu")]
 mod hardware;
 #[cfg(not(feature = "gpu"))]
@@ -43,12 +45,17 @@ mod message;
 mod outline;
 mod output;
 mod picture;
+mod playing;
+mod pose;
 mod progress;
+mod reel;
 mod render;
+mod screening;
 mod smoke;
 mod source;
 mod style_source;
 mod styles;
+mod target;
 mod timings;
 mod trace;
 mod viewpoint;
@@ -115,6 +122,7 @@ fn obey(command: Command) -> Result<(), Fault> {
     match command {
         Command::Render(arguments) => render::render(&arguments.0),
         Command::Lines(arguments) => lines::lines(&arguments.0),
+        Command::Animate(arguments) => animate::animate(&arguments.0),
         Command::Smoke(arguments) => smoke::smoke(&arguments.0),
         Command::Trace(arguments) => trace::trace(&arguments.0),
         Command::Outline(arguments) => outline::outline(&arguments.0),

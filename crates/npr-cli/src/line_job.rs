@@ -11,6 +11,7 @@ use crate::look::Look;
 use crate::message::quoted;
 use crate::output::Output;
 use crate::source::{Source, has_volume_name};
+use crate::target::Target;
 use crate::volume::{self, VolumeSource};
 use npr_core::crease::CreaseFrom;
 use npr_core::geometry::Part;
@@ -30,9 +31,9 @@ pub struct LineJob<'a> {
     pub source: Source,
     /// The limits for loading.
     pub limits: Limits,
-    /// The destination of the drawing.
-    pub output: Output,
-    /// The format of the file.
+    /// The destination of the drawing, or of the frames of a film.
+    pub target: Target,
+    /// The format of their files.
     pub format: LineFormat,
     /// The resolved style.
     pub look: Look,
@@ -51,14 +52,23 @@ pub struct LineJob<'a> {
 impl<'a> LineJob<'a> {
     /// Resolves the arguments. Reads the style and its fonts, but not the scene.
     pub fn resolve(args: &'a LinesArguments) -> Result<Self, Fault> {
-        check_size(args.drawing.size)?;
         let source = Source::of(args.scene.as_deref().unwrap_or(Path::new("-")));
         let ending = args.format.map_or("svg", LineFormat::ending);
         let path = output_path(args.output.as_deref(), &source, ending)?;
         let format = format_of(args.format, &path)?;
+        Self::drawn_into(args, source, Target::One(Output::of(&path)?), format)
+    }
+
+    /// The job of drawings in a format that go to a target.
+    pub fn drawn_into(
+        args: &'a LinesArguments,
+        source: Source,
+        target: Target,
+        format: LineFormat,
+    ) -> Result<Self, Fault> {
+        check_size(args.drawing.size)?;
         check_page(args, format)?;
         check_hidden(&args.lines)?;
-        let output = Output::of(&path)?;
         let external = args.drawing.allow_external.as_deref();
         let look = Look::resolve(&args.look(), external)?.with_smoke(&args.drawing.volumes);
         let fonts = look.fonts(&args.drawing.limits.limits(), external)?;
@@ -75,7 +85,7 @@ impl<'a> LineJob<'a> {
                     || look.style.line_paint_flags() & Part::LINE_SURFACE != 0,
                 ..args.drawing.limits.limits()
             },
-            output,
+            target,
             format,
             options: options(args, &look.style),
             artwork: artwork(args, &look.style),

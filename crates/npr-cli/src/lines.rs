@@ -1,17 +1,20 @@
 //! `npr lines`: draws the lines of a scene as curves.
 
 use crate::arguments::{
-    Backend, LineArguments, LineFormat, LinesArguments, RenderArguments, SheetArguments,
+    Backend, LineArguments, LineFormat, LinesArguments, PoseArguments, RenderArguments,
+    SheetArguments,
 };
 use crate::dump::dump_style;
 use crate::engine::{Drawn, EngineChoice};
 use crate::fault::{Exit, Fault};
 use crate::idle;
-use crate::line_file;
+use crate::line_file::{self, Ink};
 use crate::line_job::LineJob;
 use crate::look::Look;
 use crate::message;
+use crate::pose;
 use crate::progress::Progress;
+use crate::reel::Shown;
 use crate::source::Loaded;
 use crate::timings::Timings;
 use crate::viewpoint;
@@ -21,8 +24,9 @@ use npr_core::geometry::Part;
 use npr_drawing::artwork::StrokeBrushes;
 use npr_gpu::engine::{Engine, PassTime};
 use npr_render::{
-    Drawing, Kind, LineModel, LineModelOptions, LineRenderer, LineSource, Model, facts_of,
+    Drawing, Kind, LineModel, LineModelOptions, LineRenderer, LineSource, Model, Smoke, facts_of,
 };
+use npr_scene::Scene;
 use npr_stylesheet::Background;
 use std::io::Write;
 
@@ -75,7 +79,8 @@ pub fn lines_of_picture(args: &RenderArguments) -> Result<(), Fault> {
 fn draw(job: &LineJob<'_>, progress: &mut Progress) -> Result<Drawn<LineFrame>, Fault> {
     line_file::check_memory(job)?;
     let engine = EngineChoice::begin(&job.args.drawing);
-    let model = prepare(job, progress)?;
+    let loaded = load(job, progress)?;
+    let model = prepare(job, loaded, Some(&job.args.drawing.pose), progress)?;
     let lines = &model.lines;
     let camera = viewpoint::camera(&job.args.drawing.camera, lines, job.args.drawing.size)?;
     let drawn = draw_lines((job, &engine), &model, &camera, progress)?;
@@ -83,26 +88,74 @@ fn draw(job: &LineJob<'_>, progress: &mut Progress) -> Result<Drawn<LineFrame>, 
     progress.suspend(|| {
         message::warn_all(job.args.drawing.quiet, &drawing.notices);
     });
-    let view = camera.view(drawing.size, lines.bounds());
-    let lettering = job.lettering.placed(&view, job.options.dpi);
     let bytes = progress.step("encode", || {
-        line_file::encode(job, drawing, model.brushes, lettering)
+        line_file::encode(job, drawing, model.ink(job, &camera))
     })?;
-    progress.step("write", || job.output.write(&bytes))?;
+    progress.step("write", || job.target.output(0)?.write(&bytes))?;
     Ok(drawn)
 }
 
 /// A scene prepared for drawing lines.
-struct Prepared {
-    lines: LineModel,
+pub struct Prepared {
+    /// Its lines.
+    pub lines: LineModel,
     /// The model that the background is drawn from, where lines adapt to it.
     behind: Option<Model>,
     /// What the strokes of the file are drawn with.
     brushes: StrokeBrushes,
+    /// The smoke in the scene.
+    pub smoke: Option<Smoke>,
+    /// What all of it was made of, in the same pose.
+    pub scene: Scene,
 }
 
 impl Prepared {
-    fn renderer<'a>(&'a self, engine: &'a dyn Engine, job: &'a LineJob<'_>) -> LineRenderer<'a> {
+    /// What the file has beside the lines that a camera sees: the brushes that draw them, and words.
+    fn ink(&self, job: &LineJob<'_>, camera: &Camera) -> Ink {
+        let view = camera.view(job.options.size, self.lines.bounds());
+        Ink {
+            brushes: self.brushes.clone(),
+            lettering: job.lettering.placed(&view, job.options.dpi),
+        }
+    }
+
+    /// A frame of a film: the drawing of what a camera sees, as pixels or as the bytes of a file.
+    pub fn shown(
+        &self,
+        job: &LineJob<'_>,
+        drawing: &Drawing,
+        camera: &Camera,
+    ) -> Result<Shown, Fault> {
+        let ink = self.ink(job, camera);
+        match job.format {
+            LineFormat::Png => line_file::pixels(job, drawing, ink).map(Shown::Pixels),
+            _ => line_file::encode(job, drawing, ink).map(Shown::File),
+        }
+    }
+
+    /// Moves all of it into the pose that the user asked for, and gives what there is to warn of.
+    fn pose(
+        &mut self,
+        args: &PoseArguments,
+        progress: &mut Progress,
+    ) -> Result<Vec<String>, Fault> {
+        let warnings = pose::pose(args, &mut self.scene)?;
+        if pose::clip_of(args, &self.scene)?.is_some() {
+            progress.step("pose", || {
+                self.lines.set_pose(&self.scene)?;
+                let behind = self.behind.as_mut();
+                behind.map_or(Ok(()), |model| model.set_pose(&self.scene))
+            })?;
+        }
+        Ok(warnings)
+    }
+
+    /// A renderer of its lines.
+    pub fn renderer<'a>(
+        &'a self,
+        engine: &'a dyn Engine,
+        job: &'a LineJob<'_>,
+    ) -> LineRenderer<'a> {
         let renderer = LineRenderer::new(engine, &self.lines);
         match (&self.behind, &job.backdrop) {
             (Some(model), Some(options)) => renderer.with_backdrop(model, options),
@@ -131,6 +184,12 @@ fn draw_lines(
         })
     };
     let drawn = engine.draw_as_step(&picture, progress)?;
+    tell_engine(job, &drawn.engine, progress);
+    Ok(drawn)
+}
+
+/// Tells what of a job is the processor's, where a device was asked for.
+pub fn tell_engine(job: &LineJob<'_>, engine: &str, progress: &Progress) {
     let reported = match job.options.method {
         LineSource::Edges | LineSource::Potrace => None,
         LineSource::Surface => {
@@ -141,22 +200,33 @@ fn draw_lines(
         }
     };
     if let Some(reported) = reported.filter(|_| job.args.drawing.backend == Backend::Gpu) {
-        let text = format!("{} {reported}", drawn.engine);
+        let text = format!("{engine} {reported}");
         progress.suspend(|| message::warn(job.args.drawing.quiet, &text));
     }
-    Ok(drawn)
 }
 
-/// Loads and prepares the scene, and warns about what is ignored.
-fn prepare(job: &LineJob<'_>, progress: &mut Progress) -> Result<Prepared, Fault> {
+/// Loads the scene of a job.
+pub fn load(job: &LineJob<'_>, progress: &mut Progress) -> Result<Loaded, Fault> {
     let external = job.args.drawing.allow_external.as_deref();
-    let mut loaded = progress.step("load", || match job.args.built_in() {
+    progress.step("load", || match job.args.built_in() {
         Some(source) => Ok(Loaded::of_smoke(source)),
         None => job.source.load(&job.limits, external),
-    })?;
+    })
+}
+
+/// Prepares the scene and the smoke in it, and warns about what is ignored. The scene takes the pose that is asked for;
+/// without `pose` it rests.
+pub fn prepare(
+    job: &LineJob<'_>,
+    mut loaded: Loaded,
+    pose: Option<&PoseArguments>,
+    progress: &mut Progress,
+) -> Result<Prepared, Fault> {
+    // Refuse to draw over its files, and add the smoke in it.
+    let external = job.args.drawing.allow_external.as_deref();
     let mut inputs = loaded.inputs;
     inputs.extend(job.look.inputs());
-    job.output.refuse_any_of(&inputs)?;
+    job.target.refuse_any_of(&inputs)?;
     let order = Order {
         args: &job.args.drawing.volumes,
         style: &job.look.style.smoke,
@@ -164,55 +234,66 @@ fn prepare(job: &LineJob<'_>, progress: &mut Progress) -> Result<Prepared, Fault
     };
     let of_volumes = idle::of_volumes(&order, loaded.volume.as_ref());
     let (smoke, reported) = volume::step(progress, &order, loaded.volume)?;
-    job.output.refuse_any_of(&reported.inputs)?;
+    job.target.refuse_any_of(&reported.inputs)?;
+
+    // Prepare the scene for the style.
     job.look
         .apply_id_maps(&mut loaded.scene, &job.limits, external)?;
+    let facts = facts_of(&loaded.scene, smoke.is_some());
+    let mut prepared = progress.step("prepare", || prepared(job, loaded.scene, smoke))?;
+
+    // Pose it.
+    let of_pose = match pose {
+        Some(args) => prepared.pose(args, progress)?,
+        None => Vec::new(),
+    };
+
+    // Warn about what was mended, and about keys and options that have no effect.
+    progress.suspend(|| {
+        warn_of(job, &prepared.lines, reported.notices.iter());
+        let keys = job.look.notices(&job.occasion(facts));
+        let options = idle::of_lines(job, facts, !prepared.brushes.all.is_empty());
+        message::warn_all(
+            job.args.drawing.quiet,
+            keys.iter()
+                .chain(&options)
+                .chain(&of_pose)
+                .chain(&of_volumes),
+        );
+    });
+    Ok(prepared)
+}
+
+/// A scene with smoke in it, prepared for drawing its lines.
+fn prepared(job: &LineJob<'_>, scene: Scene, smoke: Option<Smoke>) -> Result<Prepared, Fault> {
+    // Prepare its lines.
     let options = LineModelOptions {
         weld: job.args.lines.weld,
         memory_limit: job.limits.memory_bytes,
         painted: job.options.painted.is_some(),
     };
-    let mut model = progress.step("prepare", || {
-        LineModel::for_style(
-            &loaded.scene,
-            &job.look.style,
-            &options,
-            job.cache.as_deref(),
-        )
-    })?;
-    let facts = facts_of(&loaded.scene, smoke.is_some());
-    model.set_smoke(smoke);
-    let style = &job.look.style;
+    let (style, cache) = (&job.look.style, job.cache.as_deref());
+    let mut model = LineModel::for_style(&scene, style, &options, cache)?;
+    model.set_smoke(smoke.clone());
     let is_painted = style.line_paint_flags() & Part::LINE_TEXTURE != 0;
     if is_painted || style.line.width.picture().is_some() || job.lays_brushes() {
-        model.set_pictures(
-            job.look
-                .pictures(&job.args.drawing.limits.limits(), external)?,
-        );
+        let limits = job.args.drawing.limits.limits();
+        let external = job.args.drawing.allow_external.as_deref();
+        model.set_pictures(job.look.pictures(&limits, external)?);
     }
+
+    // Prepare what draws them, and what is behind them.
     let brushes = match job.lays_brushes() {
-        true => model.brushes(&job.look.style, &job.options)?,
+        true => model.brushes(style, &job.options)?,
         false => StrokeBrushes::default(),
     };
-    let behind = match job.backdrop {
-        Some(_) => Some(progress.step("prepare", || {
-            Model::cached(&loaded.scene, job.cache.as_deref())
-        })?),
-        None => None,
-    };
-    progress.suspend(|| {
-        warn_of(job, &model, reported.notices.iter());
-        let keys = job.look.notices(&job.occasion(facts));
-        let options = idle::of_lines(job, facts, !brushes.all.is_empty());
-        message::warn_all(
-            job.args.drawing.quiet,
-            keys.iter().chain(&options).chain(&of_volumes),
-        );
-    });
+    let behind = job.backdrop.as_ref().map(|_| Model::cached(&scene, cache));
     Ok(Prepared {
         lines: model,
-        behind,
+        behind: behind.transpose()?,
         brushes,
+        smoke,
+        scene,
     })
 }
 

@@ -5,6 +5,7 @@ use crate::interrupt;
 use crate::message::quoted;
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
+use tempfile::NamedTempFile;
 
 /// The destination of a picture.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -54,9 +55,33 @@ impl Output {
     ) -> Result<(), Fault> {
         match self {
             Self::Standard => print_with(fill),
-            Self::File(path) => write_atomic(path, fill).map_err(|error| {
-                Fault::from(error).while_doing(format_args!("cannot write {}", quoted(path)))
-            }),
+            Self::File(path) => write_atomic(path, |file| fill(file))
+                .map_err(|error: io::Error| self.cannot_write(error.into())),
+        }
+    }
+
+    /// Lets `fill` write a file at the path that it gets, otherwise as [`Self::write`] does. Standard output has no
+    /// path.
+    pub fn write_by(&self, fill: impl FnOnce(&Path) -> Result<(), Fault>) -> Result<(), Fault> {
+        let Self::File(path) = self else {
+            return Err(Fault::new(Exit::Usage, "it cannot go to standard output"));
+        };
+        write_atomic(path, |file| fill(file.path())).map_err(|fault| self.cannot_write(fault))
+    }
+
+    /// An empty file without a name, in the folder of the file, for what is needed until that is written.
+    pub fn scratch(&self) -> io::Result<std::fs::File> {
+        match self {
+            Self::Standard => tempfile::tempfile(),
+            Self::File(path) => tempfile::tempfile_in(folder_of(path)),
+        }
+    }
+
+    /// The fault of writing, with the name of what cannot be written.
+    pub fn cannot_write(&self, fault: Fault) -> Fault {
+        match self {
+            Self::Standard => fault.while_doing("cannot write to standard output"),
+            Self::File(path) => fault.while_doing(format_args!("cannot write {}", quoted(path))),
         }
     }
 }
@@ -114,10 +139,10 @@ pub fn folder_of(path: &Path) -> &Path {
 
 /// Writes a temporary file in the same folder and renames it when it is whole, so that readers see the old file or the
 /// new one. No temporary file stays behind after a failure or an interrupt.
-fn write_atomic(
+fn write_atomic<E: From<io::Error>>(
     path: &Path,
-    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-) -> io::Result<()> {
+    fill: impl FnOnce(&mut NamedTempFile) -> Result<(), E>,
+) -> Result<(), E> {
     let mut file = {
         let _writing = interrupt::hold_off();
         let file = new_file_in(folder_of(path))?;
@@ -130,12 +155,12 @@ fn write_atomic(
     *interrupt::unfinished() = None;
     filled?;
     file.as_file().sync_all()?;
-    file.persist(path)?;
+    file.persist(path).map_err(|error| error.error)?;
     Ok(())
 }
 
 #[cfg(unix)]
-fn new_file_in(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
+fn new_file_in(folder: &Path) -> io::Result<NamedTempFile> {
     use std::os::unix::fs::PermissionsExt;
 
     // Ask for the permissions of any new file, which the user's umask restricts.
@@ -147,7 +172,7 @@ fn new_file_in(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
 }
 
 #[cfg(not(unix))]
-fn new_file_in(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
+fn new_file_in(folder: &Path) -> io::Result<NamedTempFile> {
     tempfile::Builder::new().prefix(".npr-").tempfile_in(folder)
 }
 

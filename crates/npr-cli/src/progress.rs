@@ -74,18 +74,28 @@ pub struct Counter {
 impl Counter {
     /// Shows that `done` parts of `of` are done.
     pub fn tell(&self, name: &str, done: usize, of: usize) {
+        self.show(name, [done, of], false);
+    }
+
+    /// The same with how many are done a second.
+    pub fn tell_pace(&self, name: &str, done: usize, of: usize) {
+        self.show(name, [done, of], true);
+    }
+
+    fn show(&self, name: &str, [done, of]: [usize; 2], with_pace: bool) {
         let Some(bar) = &self.bar else {
             return;
         };
         let (start, before) = self.start.get().unwrap_or((Instant::now(), done));
         self.start.set(Some((start, before)));
-        let left = time_left(
-            start.elapsed(),
-            done - before.min(done),
-            of.saturating_sub(done),
-        );
+        let (elapsed, since) = (start.elapsed(), done - before.min(done));
+        let left = time_left(elapsed, since, of.saturating_sub(done));
         let left = left.map_or(String::new(), |left| format!(", {} s left", left.as_secs()));
-        bar.set_message(format!("{name} {done} of {of}{left},"));
+        let pace = match with_pace && since > 0 {
+            true => format!(", {:.1} a second", since as f64 / elapsed.as_secs_f64()),
+            false => String::new(),
+        };
+        bar.set_message(format!("{name} {done} of {of}{pace}{left},"));
     }
 }
 

@@ -1,6 +1,6 @@
 //! `npr render`: draws one picture of a scene.
 
-use crate::arguments::{DrawingArguments, RenderArguments};
+use crate::arguments::{DrawingArguments, PoseArguments, RenderArguments};
 use crate::bands::draw_into;
 use crate::dump::dump_style;
 use crate::encoder;
@@ -13,16 +13,22 @@ use crate::layers::{self, DebugLayer};
 use crate::lines;
 use crate::look::Look;
 use crate::message;
-use crate::output::print;
+use crate::output::{Output, print};
+use crate::pose;
 use crate::progress::Progress;
+use crate::source::Loaded;
 use crate::timings::{DRAW, Timings};
 use crate::viewpoint::{self, Seen};
 use crate::volume::{self, Order};
 use npr_core::camera::Camera;
 use npr_gpu::engine::Engine;
-use npr_render::{Frame, LineModelOptions, Model, RendererOptions, Smoke, Subject, facts_of};
+use npr_render::{
+    Frame, LineModelOptions, Model, RenderError, Renderer, RendererOptions, Smoke, Subject,
+    facts_of,
+};
 use npr_scene::{Limits, Scene};
 use npr_stylesheet::{Facts, Occasion, Style};
+use std::borrow::Cow;
 use std::io::Write;
 use std::path::Path;
 
@@ -60,18 +66,26 @@ pub fn render(args: &RenderArguments) -> Result<(), Fault> {
 fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Frame>, Fault> {
     // Load the scene and look at it, while a device opens.
     let engine = EngineChoice::begin(&job.args.drawing);
-    let (prepared, smoke) = prepare(job, progress)?;
-    let empty = Smoke::default();
-    let smoke_in_it = smoke.as_ref().unwrap_or(&empty);
-    let camera = camera_of(&prepared, &job.args.drawing, smoke_in_it)?;
+    let loaded = load(job, progress)?;
+    let pose = &job.args.drawing.pose;
+    let prepared = prepare(job, loaded, Some(pose), progress)?;
+    let seen = prepared.seen()?;
+    let camera = viewpoint::camera(&job.args.drawing.camera, &seen, job.args.drawing.size)?;
     let options = RendererOptions {
-        smoke,
+        smoke: prepared.smoke.clone(),
         in_bands: true,
         ..job.options.clone()
     };
 
     // Draw it, whole or band by band into its file.
-    let drawn = draw_frame((job, &engine), &prepared, &options, &camera, progress)?;
+    let output = job.target.output(0)?;
+    let drawn = draw_frame(
+        (job, &engine, &output),
+        &prepared,
+        &options,
+        &camera,
+        progress,
+    )?;
     let (mut frame, is_written) = match drawn.picture {
         Picture::Whole(frame) => (frame, false),
         Picture::InBands(written) => (written?, true),
@@ -87,9 +101,9 @@ fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Frame>, Fault> {
     if !is_written {
         let bytes = progress.step("encode", || match job.format {
             PictureFormat::Png => encoder::png(frame.size, &frame.rgba, job.look.is_transparent()),
-            PictureFormat::Exr => layers::exr(&mut frame, &prepared.model.object_names()),
+            PictureFormat::Exr => layers::exr(&mut frame, &prepared.subject.model.object_names()),
         })?;
-        progress.step("write", || job.output.write(&bytes))?;
+        progress.step("write", || output.write(&bytes))?;
     }
     let engine = drawn.engine;
     Ok(Drawn {
@@ -112,8 +126,11 @@ pub fn camera_of(
     args: &DrawingArguments,
     smoke: &Smoke,
 ) -> Result<Camera, Fault> {
-    let model = &subject.model;
-    viewpoint::camera(&args.camera, &Seen { model, smoke }, args.size)
+    let seen = Seen {
+        model: Cow::Borrowed(&subject.model),
+        smoke: Cow::Borrowed(smoke),
+    };
+    viewpoint::camera(&args.camera, &seen, args.size)
 }
 
 /// Prepares a scene for drawing in a style.
@@ -139,17 +156,69 @@ pub fn prepared(
     Ok(Subject { model, lines })
 }
 
-/// Loads and prepares the scene and the smoke in it, and warns about what is ignored.
-fn prepare(job: &Job<'_>, progress: &mut Progress) -> Result<(Subject, Option<Smoke>), Fault> {
-    // Load the scene, and refuse to draw over its files.
+/// Loads the scene of a job.
+pub fn load(job: &Job<'_>, progress: &mut Progress) -> Result<Loaded, Fault> {
+    let limits = job.args.drawing.limits.limits();
+    let external = job.args.drawing.allow_external.as_deref();
+    progress.step("load", || job.source.load(&limits, external))
+}
+
+/// A scene with smoke in it, ready to be drawn.
+pub struct Prepared {
+    /// The scene at rest, prepared for its style.
+    pub subject: Subject,
+    /// The smoke in it.
+    pub smoke: Option<Smoke>,
+    /// What the subject was made of, in the pose that is drawn.
+    pub scene: Scene,
+    /// Whether that is another pose than the one at rest.
+    is_posed: bool,
+}
+
+impl Prepared {
+    /// What a camera is placed by.
+    pub fn seen(&self) -> Result<Seen<'_>, RenderError> {
+        let mut model = Cow::Borrowed(&self.subject.model);
+        if self.is_posed {
+            model.to_mut().set_pose(&self.scene)?;
+        }
+        let smoke = self.smoke.clone().unwrap_or_default();
+        Ok(Seen {
+            model,
+            smoke: Cow::Owned(smoke),
+        })
+    }
+
+    /// A renderer of the pose. What its style lays on surfaces is that of the scene at rest.
+    pub fn renderer<'a>(
+        &'a self,
+        engine: &'a dyn Engine,
+        (style, options): (&Style, &RendererOptions),
+    ) -> Result<Renderer<'a>, RenderError> {
+        let mut renderer = self.subject.renderer(engine, style, options)?;
+        if self.is_posed {
+            renderer.set_pose(&self.scene)?;
+        }
+        Ok(renderer)
+    }
+}
+
+/// Prepares the scene and the smoke in it, and warns about what is ignored. The scene takes the pose that is asked for;
+/// without `pose` it rests.
+pub fn prepare(
+    job: &Job<'_>,
+    mut loaded: Loaded,
+    pose: Option<&PoseArguments>,
+    progress: &mut Progress,
+) -> Result<Prepared, Fault> {
+    // Refuse to draw over its files.
     let (limits, external) = (
         job.args.drawing.limits.limits(),
         job.args.drawing.allow_external.as_deref(),
     );
-    let mut loaded = progress.step("load", || job.source.load(&limits, external))?;
     let mut inputs = loaded.inputs;
     inputs.extend(job.look.inputs());
-    job.output.refuse_any_of(&inputs)?;
+    job.target.refuse_any_of(&inputs)?;
 
     // Add the smoke in it.
     let order = Order {
@@ -159,22 +228,35 @@ fn prepare(job: &Job<'_>, progress: &mut Progress) -> Result<(Subject, Option<Sm
     };
     let of_volumes = idle::of_volumes(&order, loaded.volume.as_ref());
     let (smoke, reported) = volume::step(progress, &order, loaded.volume)?;
-    job.output.refuse_any_of(&reported.inputs)?;
+    job.target.refuse_any_of(&reported.inputs)?;
 
     // Prepare the scene for the style.
     job.look
         .apply_id_maps(&mut loaded.scene, &limits, external)?;
     let (style, cache) = (&job.look.style, job.cache.as_deref());
-    let prepared = prepared(&loaded.scene, style, &limits, cache, progress)?;
+    let mut scene = loaded.scene;
+    let subject = prepared(&scene, style, &limits, cache, progress)?;
+
+    // Pose the scene.
+    let (mut of_pose, mut is_posed) = (Vec::new(), false);
+    if let Some(args) = pose {
+        of_pose = pose::pose(args, &mut scene)?;
+        is_posed = pose::clip_of(args, &scene)?.is_some();
+    }
 
     // Warn about what was mended, and about keys and options that have no effect.
-    let facts = facts_of(&loaded.scene, smoke.is_some());
+    let facts = facts_of(&scene, smoke.is_some());
     progress.suspend(|| {
-        warn_of(job, &prepared.model, reported.notices.iter());
+        warn_of(job, &subject.model, reported.notices.iter());
         warn_of_idle(&job.look, facts, job.args.drawing.quiet);
-        message::warn_all(job.args.drawing.quiet, &of_volumes);
+        message::warn_all(job.args.drawing.quiet, of_pose.iter().chain(&of_volumes));
     });
-    Ok((prepared, smoke))
+    Ok(Prepared {
+        subject,
+        smoke,
+        scene,
+        is_posed,
+    })
 }
 
 /// Warns about stated keys of the style that have no effect in pictures of a scene.
@@ -192,8 +274,8 @@ fn warn_of<'a>(job: &Job<'_>, model: &'a Model, of_smoke: impl Iterator<Item = &
 }
 
 fn draw_frame(
-    (job, engine): (&Job<'_>, &EngineChoice<'_>),
-    prepared: &Subject,
+    (job, engine, output): (&Job<'_>, &EngineChoice<'_>, &Output),
+    prepared: &Prepared,
     options: &RendererOptions,
     camera: &Camera,
     progress: &mut Progress,
@@ -202,13 +284,13 @@ fn draw_frame(
     let counter = progress.counter();
     let tell = |done, of| counter.tell(DRAW, done, of);
     let picture = |engine: &dyn Engine| {
-        let renderer = prepared.renderer(engine, &job.look.style, options)?;
+        let renderer = prepared.renderer(engine, (&job.look.style, options))?;
         let mut renderer = renderer.with_progress(&tell);
         if !renderer.draws_bands() {
             return renderer.draw(camera).map(Picture::Whole);
         }
         let keep_alpha = job.look.is_transparent();
-        let written = draw_into(&job.output, &mut renderer, camera, options.size, keep_alpha)?;
+        let written = draw_into(output, &mut renderer, camera, options.size, keep_alpha)?;
         Ok(Picture::InBands(written))
     };
 

@@ -5,6 +5,7 @@ use crate::fault::{Exit, Fault};
 use crate::message;
 use npr_core::camera::{Camera, DEFAULT_FOV_DEG};
 use npr_render::{LineModel, Model, Smoke};
+use std::borrow::Cow;
 
 /// Most cameras that a message lists.
 const LISTED_CAMERAS: usize = 5;
@@ -17,6 +18,8 @@ pub trait Viewed {
     fn bounds(&self) -> ([f32; 3], [f32; 3]);
     /// A view of all of it, for a frame of width / height `aspect` and a vertical field of view in radians.
     fn framing(&self, aspect: f32, fov_y: f32) -> Camera;
+    /// The same of all that it sweeps where the camera turns about an axis, given by a point on it and its direction.
+    fn framing_around(&self, axis: [[f32; 3]; 2], view: (f32, f32)) -> Camera;
 }
 
 impl Viewed for LineModel {
@@ -31,14 +34,18 @@ impl Viewed for LineModel {
     fn framing(&self, aspect: f32, fov_y: f32) -> Camera {
         self.framing(aspect, fov_y)
     }
+
+    fn framing_around(&self, axis: [[f32; 3]; 2], view: (f32, f32)) -> Camera {
+        self.framing_around(axis, view)
+    }
 }
 
 /// A model together with smoke.
 pub struct Seen<'a> {
     /// The model.
-    pub model: &'a Model,
+    pub model: Cow<'a, Model>,
     /// The smoke, perhaps none.
-    pub smoke: &'a Smoke,
+    pub smoke: Cow<'a, Smoke>,
 }
 
 impl Viewed for Seen<'_> {
@@ -47,12 +54,101 @@ impl Viewed for Seen<'_> {
     }
 
     fn bounds(&self) -> ([f32; 3], [f32; 3]) {
-        self.model.bounds_with(self.smoke)
+        self.model.bounds_with(&self.smoke)
     }
 
     fn framing(&self, aspect: f32, fov_y: f32) -> Camera {
-        self.model.framing_with(self.smoke, aspect, fov_y)
+        self.model.framing_with(&self.smoke, aspect, fov_y)
     }
+
+    fn framing_around(&self, axis: [[f32; 3]; 2], view: (f32, f32)) -> Camera {
+        self.model.framing_around(&self.smoke, axis, view)
+    }
+}
+
+/// A scene in all poses of a film.
+pub struct Staged<'a> {
+    /// Cameras of the file with their names.
+    pub cameras: &'a [(String, Camera)],
+    /// Places where something is seen, and the box around them.
+    pub points: &'a [[f32; 3]],
+    /// Lowest and highest corner.
+    pub bounds: ([f32; 3], [f32; 3]),
+}
+
+impl Viewed for Staged<'_> {
+    fn cameras(&self) -> &[(String, Camera)] {
+        self.cameras
+    }
+
+    fn bounds(&self) -> ([f32; 3], [f32; 3]) {
+        self.bounds
+    }
+
+    fn framing(&self, aspect: f32, fov_y: f32) -> Camera {
+        Camera::framing_points(self.points.iter().copied(), aspect, fov_y)
+    }
+
+    fn framing_around(&self, [pivot, axis]: [[f32; 3]; 2], (aspect, fov_y): (f32, f32)) -> Camera {
+        let points = self.points.iter().copied().map(Into::into);
+        let swept = npr_core::camera::swept(points, pivot, axis);
+        Camera::framing_points(swept.into_iter(), aspect, fov_y)
+    }
+}
+
+/// A camera that turns about an axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Orbit {
+    /// The camera before it turns.
+    camera: Camera,
+    /// A point on the axis.
+    pivot: [f32; 3],
+    /// Its direction.
+    axis: [f32; 3],
+}
+
+impl Orbit {
+    /// A camera that stands still.
+    pub fn still(camera: Camera) -> Self {
+        Self {
+            camera,
+            pivot: camera.target,
+            axis: camera.up,
+        }
+    }
+
+    /// The camera after it has turned by `angle` radians, counter-clockwise as seen from above.
+    pub fn at(&self, angle: f32) -> Camera {
+        self.camera.turned(self.pivot, self.axis, angle)
+    }
+}
+
+/// The camera that the user asked for, turning about the up axis through its target; without one, the scene is framed
+/// so that it stays in the picture all around. A camera of the file has no target: it turns about the middle of the
+/// scene, whose up is +y.
+pub fn orbit(args: &CameraArguments, model: &dyn Viewed, size: Size) -> Result<Orbit, Fault> {
+    let middle = middle(model.bounds());
+    let pivot = args.target.map_or(middle, |target| target.0);
+    let axis = args.up.map_or([0.0, 1.0, 0.0], |up| up.0);
+    let camera = match &args.camera {
+        Some(name) => camera_of_file(name, model.cameras())?,
+        None => placed_camera(
+            args,
+            model.framing_around([pivot, axis], shape(args, size)),
+            middle,
+        )?,
+    };
+    Ok(Orbit {
+        camera,
+        pivot,
+        axis,
+    })
+}
+
+/// Width / height of the frame, and the vertical field of view in radians.
+fn shape(args: &CameraArguments, size: Size) -> (f32, f32) {
+    let fov_y = args.fov.unwrap_or(DEFAULT_FOV_DEG).to_radians();
+    (size.width as f32 / size.height as f32, fov_y)
 }
 
 /// The camera that the user asked for, or one that frames the whole model from three quarters above.
@@ -60,9 +156,8 @@ pub fn camera(args: &CameraArguments, model: &dyn Viewed, size: Size) -> Result<
     match &args.camera {
         Some(name) => camera_of_file(name, model.cameras()),
         None => {
-            let fov_y = args.fov.unwrap_or(DEFAULT_FOV_DEG).to_radians();
-            let framing = model.framing(size.width as f32 / size.height as f32, fov_y);
-            placed_camera(args, framing, middle(model.bounds()))
+            let (aspect, fov_y) = shape(args, size);
+            placed_camera(args, model.framing(aspect, fov_y), middle(model.bounds()))
         }
     }
 }

@@ -92,6 +92,22 @@ impl Camera {
         }
     }
 
+    /// The camera turned by `angle` radians about an axis through `pivot`, counter-clockwise as seen from where the
+    /// axis points. An angle of 0 gives the same camera, bit for bit.
+    pub fn turned(&self, pivot: [f32; 3], axis: [f32; 3], angle: f32) -> Self {
+        if angle == 0.0 {
+            return *self;
+        }
+        let (pivot, axis) = (Vec3::from(pivot), axis_of(axis));
+        let place = |point: [f32; 3]| pivot + turned_about(axis, Vec3::from(point) - pivot, angle);
+        Self {
+            eye: place(self.eye).to_array(),
+            target: place(self.target).to_array(),
+            up: turned_about(axis, Vec3::from(self.up), angle).to_array(),
+            projection: self.projection,
+        }
+    }
+
     /// Right, up and back axes of the picture, unit length, whatever the input.
     pub fn axes(&self) -> [[f32; 3]; 3] {
         let toward_eye = Vec3::from(self.eye) - Vec3::from(self.target);
@@ -165,6 +181,69 @@ impl Camera {
         let room = (range.1 - range.0).max(range.1.abs() * 1e-3).max(1e-6) * 0.01;
         (range.0 - room, range.1 + room)
     }
+}
+
+/// Slices along the axis, and points on the ring of each, that stand for what turns.
+const SWEPT: [usize; 2] = [64, 32];
+
+/// Rings of points around all that points sweep as they turn about an axis through `pivot`, for framing a view that
+/// turns. What is swept lies within them, up to a share of 0.5 % of its radius.
+///
+/// The points are cut into slices across the axis; each slice has a ring as wide as its farthest point, at its lower
+/// and its upper end. O(points).
+pub fn swept(
+    points: impl Iterator<Item = Vec3> + Clone,
+    pivot: [f32; 3],
+    axis: [f32; 3],
+) -> Vec<[f32; 3]> {
+    // Measure how far the points reach along the axis.
+    let (pivot, axis) = (Vec3::from(pivot), axis_of(axis));
+    let heights = points.clone().map(|point| (point - pivot).dot(axis));
+    let (low, high) = heights.fold((f32::MAX, f32::MIN), |(low, high), height| {
+        (low.min(height), high.max(height))
+    });
+    if low > high {
+        return Vec::new();
+    }
+
+    // Measure how far those of every slice lie from it.
+    let [slices, sides] = SWEPT;
+    let thickness = (high - low) / slices as f32;
+    let mut radii = vec![-1.0_f32; slices];
+    for point in points {
+        let from_pivot = point - pivot;
+        let height = from_pivot.dot(axis);
+        let slice = ((height - low) / thickness.max(f32::MIN_POSITIVE)) as usize;
+        let radius = &mut radii[slice.min(slices - 1)];
+        *radius = radius.max((from_pivot - axis * height).length());
+    }
+
+    // Put a ring round both ends of every slice that holds a point.
+    let (right, back) = axis.any_orthonormal_pair();
+    let mut rings = Vec::with_capacity(slices * sides * 2);
+    let filled = (0..slices).zip(radii).filter(|(_, radius)| *radius >= 0.0);
+    for (slice, radius) in filled {
+        for end in [slice, slice + 1] {
+            let middle = pivot + axis * (low + thickness * end as f32);
+            rings.extend((0..sides).map(|side| {
+                let angle = side as f32 / sides as f32 * std::f32::consts::TAU;
+                let across = right * math::cos(angle) + back * math::sin(angle);
+                (middle + across * radius).to_array()
+            }));
+        }
+    }
+    rings
+}
+
+/// An axis with unit length; up where it has none.
+fn axis_of(axis: [f32; 3]) -> Vec3 {
+    Vec3::from(axis).try_normalize().unwrap_or(Vec3::Y)
+}
+
+/// A vector turned about a unit axis by Rodrigues' formula, counter-clockwise as seen from where the axis points.
+fn turned_about(axis: Vec3, vector: Vec3, angle: f32) -> Vec3 {
+    let (sin, cos) = (math::sin(angle), math::cos(angle));
+    vector * cos + axis.cross(vector) * sin + axis * axis.dot(vector) * (1.0 - cos)
 }
 
 /// The box around points, its lowest and highest corner; a unit box where there are none.
@@ -251,6 +330,70 @@ mod tests {
             let (a, b) = (project(&view, [0.0, 0.0, -near]), project(&view, [0.0, 0.0, -near - gap]));
             prop_assert!(a[2] / a[3] > b[2] / b[3]);
         }
+    }
+
+    proptest! {
+        /// What a camera sees of the world after it turned is what it saw before of a world turned the other way.
+        #[test]
+        fn a_turned_camera_sees_the_world_turned_back(
+            eye in prop::array::uniform3(-3.0f32..3.0),
+            pivot in prop::array::uniform3(-2.0f32..2.0),
+            axis in prop::array::uniform3(-1.0f32..1.0),
+            point in prop::array::uniform3(-1.0f32..1.0),
+            angle in -7.0f32..7.0,
+        ) {
+            let camera = Camera { eye: [eye[0], eye[1], eye[2] + 9.0], ..Camera::framing([-1.0; 3], [1.0; 3]) };
+            prop_assume!(Vec3::from(axis).length() > 0.1);
+            let turn = glam::Quat::from_axis_angle(Vec3::from(axis).normalize(), -angle);
+            let turned_back = Vec3::from(pivot) + turn * (Vec3::from(point) - Vec3::from(pivot));
+            let seen = |camera: &Camera, point: [f32; 3]| {
+                // Depths follow from the box, which turns too: only the place in the picture is compared.
+                let [x, y, _, w] = project(&camera.view([16, 9], ([-20.0; 3], [20.0; 3])), point);
+                [x / w, y / w]
+            };
+            let [now, wanted] = [
+                seen(&camera.turned(pivot, axis, angle), point),
+                seen(&camera, turned_back.to_array()),
+            ];
+            prop_assert!((now[0] - wanted[0]).abs() < 1e-3 && (now[1] - wanted[1]).abs() < 1e-3, "{now:?} {wanted:?}");
+        }
+
+        /// From every side of the axis, what is swept reaches as far as each point does at any angle.
+        #[test]
+        fn rings_enclose_what_turns(
+            points in prop::collection::vec(prop::array::uniform3(-5.0f32..5.0), 1..20),
+            pivot in prop::array::uniform3(-2.0f32..2.0),
+            axis in prop::array::uniform3(-1.0f32..1.0),
+            side in prop::array::uniform3(-1.0f32..1.0),
+            angle in 0.0f32..7.0,
+        ) {
+            prop_assume!(Vec3::from(axis).length() > 0.1 && Vec3::from(side).length() > 0.1);
+            let (unit, side) = (Vec3::from(axis).normalize(), Vec3::from(side).normalize());
+            let pivot_world = Vec3::from(pivot);
+            let points = points.into_iter().map(Vec3::from);
+            let rings = swept(points.clone(), pivot, axis);
+            let reach = rings.iter().map(|ring| Vec3::from(*ring).dot(side)).fold(f32::MIN, f32::max);
+            for point in points {
+                let turned = pivot_world + glam::Quat::from_axis_angle(unit, angle) * (point - pivot_world);
+                let slack = 0.006 * (point - pivot_world).length() + 1e-4;
+                prop_assert!(turned.dot(side) <= reach + slack, "{} beyond {reach}", turned.dot(side));
+            }
+        }
+    }
+
+    #[test]
+    fn a_quarter_turn_leads_from_front_to_right() {
+        let camera = Camera {
+            eye: [0.0, 1.0, 5.0],
+            target: [0.0, 1.0, 0.0],
+            ..Camera::framing([-1.0; 3], [1.0; 3])
+        };
+        let [x, y, z] = camera
+            .turned([0.0; 3], [0.0, 2.0, 0.0], std::f32::consts::FRAC_PI_2)
+            .eye;
+        assert!((x - 5.0).abs() < 1e-5 && (y - 1.0).abs() < 1e-5 && z.abs() < 1e-5);
+        assert_eq!(camera.turned([7.0; 3], [0.3, 1.0, 0.2], 0.0), camera);
+        assert!(swept(std::iter::empty(), [0.0; 3], [0.0, 1.0, 0.0]).is_empty());
     }
 
     #[test]

@@ -2,19 +2,31 @@
 
 use crate::kept::input_of;
 use crate::model::Model;
+use glam::Vec3;
+use npr_core::geometry::Vertex;
 use npr_mesh::calm::Shaded;
 
-/// The normal of every vertex of a model, averaged as far as `share` of its radius; kept where there is a folder for
-/// it. The pose is that of the moment.
-pub(crate) fn shading_normals(model: &Model, share: f32) -> Vec<[f32; 3]> {
-    let vertices = model.vertices.iter().zip(&model.influences);
+/// What has to be added to the normal of every vertex, and made unit length, to average it as far as `share` of the
+/// model's radius; kept where there is a folder for it.
+///
+/// Measured on the meshes as they were prepared, whatever the pose: what moves keeps the same calm.
+pub(crate) fn calming(model: &Model, share: f32) -> Vec<Vec3> {
+    // Gather the meshes, in lengths of the world.
+    let vertices = model.unmorphed();
+    let object_of = |vertex: &Vertex| {
+        let part = model.parts.get(vertex.part as usize);
+        part.map_or(0, |part| part.object)
+    };
     let positions: Vec<[f32; 3]> = vertices
-        .map(|(vertex, influence)| model.posed_point(vertex, influence).to_array())
+        .iter()
+        .map(|vertex| {
+            let scale = model.scale_of(object_of(vertex));
+            vertex.position.map(|x| x * scale)
+        })
         .collect();
-    let normals: Vec<[f32; 3]> = model.vertices.iter().map(|vertex| vertex.normal).collect();
+    let normals: Vec<[f32; 3]> = vertices.iter().map(|vertex| vertex.normal).collect();
     let radius = model.radius();
-    let bends: Vec<f32> = model
-        .vertices
+    let bends: Vec<f32> = vertices
         .iter()
         .map(|vertex| {
             vertex
@@ -25,22 +37,15 @@ pub(crate) fn shading_normals(model: &Model, share: f32) -> Vec<[f32; 3]> {
                 / radius
         })
         .collect();
-    let objects: Vec<u32> = model
-        .vertices
-        .iter()
-        .map(|vertex| {
-            model
-                .parts
-                .get(vertex.part as usize)
-                .map_or(0, |part| part.object)
-        })
-        .collect();
+    let objects: Vec<u32> = vertices.iter().map(object_of).collect();
     let triangles: Vec<[u32; 3]> = model
         .triangles
         .iter()
         .map(|triangle| triangle.corners)
         .collect();
     let reach = share * radius;
+
+    // Average their normals.
     let input = || {
         let mut hash = input_of("calm normals");
         hash.positions(&positions);
@@ -61,7 +66,19 @@ pub(crate) fn shading_normals(model: &Model, share: f32) -> Vec<[f32; 3]> {
         objects: &objects,
         triangles: &triangles,
     };
-    model
+    let calm = model
         .cache
-        .rows(input, is_sound, || surface.calm_normals(reach))
+        .rows(input, is_sound, || surface.calm_normals(reach));
+    let both = calm.iter().zip(&normals);
+    both.map(|(calm, normal)| Vec3::from(*calm) - Vec3::from(*normal))
+        .collect()
+}
+
+/// A normal with what calms it, of unit length.
+pub(crate) fn calmed(normal: [f32; 3], calming: Vec3) -> [f32; 3] {
+    if calming == Vec3::ZERO {
+        return normal;
+    }
+    let sum = Vec3::from(normal) + calming;
+    sum.try_normalize().map_or(normal, |sum| sum.to_array())
 }

@@ -88,6 +88,14 @@ pub enum RenderError {
         /// How many the model has.
         want: usize,
     },
+    /// A pose is of a scene with other meshes than the line model.
+    #[error("the scene has {have} vertices, but the model was made of {want}")]
+    OtherMeshes {
+        /// How many vertices the pose has, counted for every instance.
+        have: usize,
+        /// How many the model has.
+        want: usize,
+    },
     /// The style names a look that does not exist.
     #[error(transparent)]
     Style(#[from] npr_stylesheet::StyleError),

@@ -1,6 +1,7 @@
 //! One look of a model, drawn by the passes of an engine: a picture for any camera, tile by tile.
 
 use crate::beam_light::beam_lights;
+use crate::bending::Moved;
 use crate::error::RenderError;
 use crate::features::background_contrast::{BackgroundContrast, ContrastPasses};
 use crate::features::beams;
@@ -385,6 +386,11 @@ impl FramePlan {
         &self.needs.styled
     }
 
+    /// Tells of these things instead of what was found for the plan.
+    pub fn set_notices(&mut self, notices: Vec<String>) {
+        self.needs.styled.inked.notices = notices;
+    }
+
     /// Takes its memory from `budget`: that of the graph, and of as many rows of the picture as are held at once.
     pub fn take_memory(&self, budget: &mut Budget, rows: u32) -> Result<(), RenderError> {
         let width = self.options.size[0] as usize;
@@ -453,6 +459,49 @@ impl<S: Session> FrameRenderer<S> {
         self.upload_smoke()
     }
 
+    /// Takes over the pose of the model, of which `moved` says what changed; false where other lights need another
+    /// plan.
+    ///
+    /// Matrices are handed over, and vertices and edges where they changed.
+    pub fn pose(&mut self, model: &Model, moved: Moved) -> Result<bool, EngineError> {
+        // Relight the scene.
+        let FramePlan {
+            style,
+            options,
+            needs,
+            passes,
+            ..
+        } = &mut self.plan;
+        let lights = Needs::relit(model, style, options);
+        let of_smoke = lights.of_smoke(style);
+        let are_alike = lights.is_one_sun() == needs.lights.is_one_sun()
+            && lights.shadow_count() == needs.lights.shadow_count()
+            && of_smoke.1 == needs.smoke_lights.1
+            && of_smoke.0.is_one_sun() == needs.smoke_lights.0.is_one_sun()
+            && of_smoke.0.smoke_shadow_count() == needs.smoke_lights.0.smoke_shadow_count();
+        if !are_alike {
+            return Ok(false);
+        }
+        if let Some(passes) = &mut passes.smoke {
+            passes.relight(of_smoke.0.clone());
+        }
+        needs.lights = lights;
+        needs.smoke_lights = of_smoke;
+
+        // Hand over what moved.
+        let session = &mut self.session;
+        write(session, passes.frame.palette, &model.palette)?;
+        if moved.vertices {
+            needs.styled.follow(model);
+            write(session, passes.frame.vertices, &needs.styled.vertices)?;
+        }
+        if moved.edges {
+            let edges = model.edges_by(look::creases(style).from);
+            passes.lines.upload(session, &edges)?;
+        }
+        Ok(true)
+    }
+
     fn upload_smoke(&mut self) -> Result<(), EngineError> {
         let FramePlan { style, options, .. } = &self.plan;
         match (&self.plan.passes.smoke, &options.smoke) {
@@ -483,10 +532,10 @@ impl<S: Session> FrameRenderer<S> {
         placement::around(model.bounds(), smoke)
     }
 
-    /// Whether a frame goes on from the one before: not the first, nor after a cut. Tiles of a frame share their
-    /// buffers, so they never do.
+    /// Whether a frame goes on from the one before: not the first, nor after a cut, nor where each stands alone. Tiles
+    /// of a frame share their buffers, so they never do.
     fn follows(&self, view: &View, model: &Model) -> bool {
-        let Some(before) = &self.before else {
+        let Some(before) = self.before.as_ref().filter(|_| !self.plan.options.alone) else {
             return false;
         };
         let turned = Vec3::from(view.forward_world).dot(Vec3::from(before.forward_world));

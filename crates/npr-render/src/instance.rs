@@ -1,6 +1,6 @@
 //! One node's mesh, ready to be joined with the others: welded, with edges, normals and curvature.
 
-use crate::bend::bends;
+use crate::bend;
 use crate::joined::Joined;
 use crate::kept::Cache;
 use npr_core::geometry::{self, Influence, Triangle, Vertex};
@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 
 /// The angle between faces from which a mesh without normals is shaded with a hard edge: that of creases, unless a
 /// style says otherwise.
-const HARD_EDGE: f32 = npr_stylesheet::CREASE_ANGLE_DEG / 180.0 * std::f32::consts::PI;
+pub(crate) const HARD_EDGE: f32 = npr_stylesheet::CREASE_ANGLE_DEG / 180.0 * std::f32::consts::PI;
 
 /// A node's mesh, numbered from zero.
 #[derive(Debug, Default)]
@@ -28,6 +28,8 @@ pub(crate) struct Instance {
     pub edges: Vec<geometry::Edge>,
     /// The folds of the file's normals at every edge, as [`Folds::normals`].
     pub normals_cos: Vec<f32>,
+    /// What a pose needs of the mesh; none where it only carries the mesh along.
+    pub kept: Option<Kept>,
     /// One for each connected component in each part of the mesh.
     pub pieces: Vec<Piece>,
 }
@@ -39,6 +41,13 @@ pub(crate) struct Piece {
     pub part: u32,
     /// Number of the component.
     pub component: u32,
+}
+
+/// What is kept of the preparation of a mesh.
+#[derive(Debug, Clone)]
+pub(crate) struct Kept {
+    pub weld: Weld,
+    pub edges: Vec<npr_mesh::Edge>,
 }
 
 impl Instance {
@@ -85,6 +94,11 @@ impl Instance {
                 HARD_EDGE,
             );
             instance.split_by_normals(&mut joined, &corners);
+        }
+
+        // Keep what a pose needs.
+        if bends(scene, node, parts) {
+            instance.kept = Some(Kept { weld, edges });
         }
 
         // Number the pieces, and turn triangles over where the node mirrors them.
@@ -148,7 +162,7 @@ impl Instance {
             edges,
             scale,
         };
-        let bends = bends(cache, &mesh, smooth);
+        let bends = bend::bends(cache, &mesh, smooth);
 
         // Store it with the vertices that are welded there.
         for (vertex, welded) in self.vertices.iter_mut().zip(&weld.of_vertex) {
@@ -193,20 +207,23 @@ impl Instance {
     }
 }
 
+/// Whether a pose may bend the mesh of a node, and not only carry it along.
+fn bends(scene: &Scene, node: &Node, parts: &[&Part]) -> bool {
+    let skin = node.skin.and_then(|skin| scene.skins.get(skin as usize));
+    let is_skinned = skin.is_some_and(|skin| skin.joints.len() > 1);
+    is_skinned || parts.iter().any(|part| part.unmorphed.is_some())
+}
+
 /// The vertices of all parts, without curvature.
 fn stored_vertices(scene: &Scene, parts: &[&Part], joined: &Joined) -> Vec<Vertex> {
     let mut vertices = Vec::with_capacity(joined.positions.len());
     for part in parts {
         let material = part.material.and_then(|m| scene.materials.get(m as usize));
         for i in 0..part.positions.len() {
-            let normal = if joined.has_normals {
-                joined.normals[vertices.len()]
-            } else {
-                [0.0, 0.0, 1.0]
-            };
+            let normal = stored_normal(joined, vertices.len());
             vertices.push(Vertex {
                 position: part.positions[i],
-                normal: npr_core::surface::unit_or_z(normal),
+                normal,
                 color: part
                     .colors
                     .as_ref()
@@ -220,6 +237,15 @@ fn stored_vertices(scene: &Scene, parts: &[&Part], joined: &Joined) -> Vec<Verte
         }
     }
     vertices
+}
+
+/// The file's normal of a stored vertex, as a unit vector; z where some part has none.
+pub(crate) fn stored_normal(joined: &Joined, vertex: usize) -> [f32; 3] {
+    let normal = match joined.has_normals {
+        true => joined.normals[vertex],
+        false => [0.0, 0.0, 1.0],
+    };
+    npr_core::surface::unit_or_z(normal)
 }
 
 /// A linear vertex colour as sRGB bytes.
@@ -275,7 +301,7 @@ fn painted(parts: &[&Part]) -> Vec<[f32; 3]> {
 }
 
 /// The folds of a mesh's edges, measured where its node places it in the world.
-fn folds(
+pub(crate) fn folds(
     scene: &Scene,
     (node, parts): (&Node, &[&Part]),
     joined: &Joined,

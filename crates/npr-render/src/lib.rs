@@ -24,6 +24,7 @@
 
 mod beam_light;
 mod bend;
+mod bending;
 mod brushes;
 mod calm;
 #[cfg(feature = "wgpu")]
@@ -81,6 +82,7 @@ pub use npr_drawing::lettering::Font;
 pub use npr_vector::stroke::{Drawing, Kind};
 pub use options::{Picture, RendererOptions};
 pub use part_info::PartInfo;
+pub use placement::cameras_of;
 pub use puffs::Following;
 pub use renderer::Renderer;
 pub use sequence::{Frames, Shot};

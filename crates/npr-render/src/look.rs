@@ -1,7 +1,7 @@
 //! A style applied to a model: the numbers that passes read.
 
 use crate::brushes::Brushes;
-use crate::calm::shading_normals;
+use crate::calm::{calmed, calming};
 use crate::error::RenderError;
 use crate::hatching::{FrameScale, Inked, add_ink};
 use crate::line_colors::add_line_colors;
@@ -34,6 +34,8 @@ use npr_stylesheet::{
 #[derive(Debug)]
 pub(crate) struct StyledModel {
     pub vertices: Vec<Vertex>,
+    /// What calms the normals of the vertices; empty where the style leaves them as they are.
+    pub calming: Vec<Vec3>,
     pub parts: Vec<Part>,
     /// Number of the part that stands for smoke, behind all others, where a pen or a picture finishes smoke.
     pub smoke_part: Option<u32>,
@@ -120,8 +122,14 @@ impl StyledModel {
         // Put the part that stands for smoke behind all others.
         let smoke_part = smoke.is_some().then_some(parts.len() as u32);
         parts.extend(smoke);
+        let calming = match style.shade.calm > 0.0 {
+            true => calming(model, style.shade.calm),
+            false => Vec::new(),
+        };
+        let laid = (&inked.chart_distortions[..], &calming[..]);
         Ok(Self {
-            vertices: styled_vertices(model, style, options, &inked.chart_distortions),
+            vertices: styled_vertices(model, style, options, laid),
+            calming,
             parts,
             smoke_part,
             inked,
@@ -131,6 +139,20 @@ impl StyledModel {
             brushes,
             manners: StrokeManners::new(stroked, style),
         })
+    }
+
+    /// Takes over where the vertices of a model are, and their normals; widths, colours and charts stay.
+    pub fn follow(&mut self, model: &Model) {
+        for (i, (vertex, moved)) in self.vertices.iter_mut().zip(&model.vertices).enumerate() {
+            let calming = self.calming.get(i).copied().unwrap_or_default();
+            *vertex = Vertex {
+                normal: calmed(moved.normal, calming),
+                width: vertex.width,
+                color: vertex.color,
+                chart_distortion: vertex.chart_distortion,
+                ..*moved
+            };
+        }
     }
 }
 
@@ -267,11 +289,10 @@ fn styled_vertices(
     model: &Model,
     style: &Style,
     options: &RendererOptions,
-    chart_distortions: &[f32],
+    (chart_distortions, calming): (&[f32], &[Vec3]),
 ) -> Vec<Vertex> {
     let width = VertexWidth::new(model, style, options);
     let shows_colors = style.shade.use_vertex_colors;
-    let calm = (style.shade.calm > 0.0).then(|| shading_normals(model, style.shade.calm));
     (0..model.vertices.len())
         .map(|i| {
             let vertex = &model.vertices[i];
@@ -284,7 +305,7 @@ fn styled_vertices(
                 width: width.at(i),
                 color,
                 chart_distortion: chart_distortions.get(i).copied().unwrap_or_default(),
-                normal: calm.as_ref().map_or(vertex.normal, |calm| calm[i]),
+                normal: calmed(vertex.normal, calming.get(i).copied().unwrap_or_default()),
                 ..*vertex
             }
         })

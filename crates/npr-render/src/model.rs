@@ -1,5 +1,6 @@
 //! A scene prepared for drawing.
 
+use crate::bending::{Bending, Lists, Moved, surfaces_of};
 use crate::error::{RenderError, check_count};
 use crate::file_light::{self, FileLight};
 use crate::instance::Instance;
@@ -14,7 +15,7 @@ use npr_core::crease::CreaseFrom;
 use npr_core::geometry::{Edge, Influence, NONE, Triangle, Vertex};
 use npr_core::texture::TextureStore;
 use npr_mesh::pose::Matrix;
-use npr_scene::{Node, Part, Scene};
+use npr_scene::{Node, Scene};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -32,6 +33,12 @@ pub struct Model {
     edges: Vec<Edge>,
     /// The folds of the file's normals at every edge.
     normals_cos: Vec<f32>,
+    /// The vertices as they were prepared, once morphs have moved them.
+    unmorphed: Option<Vec<Vertex>>,
+    /// How much longer things of each object are in the world than in its mesh, as it was prepared.
+    scales: BTreeMap<u32, f32>,
+    /// The meshes that a pose may bend.
+    bending: Vec<Bending>,
     pub(crate) parts: Vec<PartInfo>,
     pub(crate) textures: TextureStore,
     pub(crate) lights: Vec<FileLight>,
@@ -80,6 +87,9 @@ impl Model {
             triangles: Vec::new(),
             edges: Vec::new(),
             normals_cos: Vec::new(),
+            unmorphed: None,
+            scales: BTreeMap::new(),
+            bending: Vec::new(),
             parts: Vec::new(),
             textures: TextureStore::new(),
             lights: Vec::new(),
@@ -130,9 +140,10 @@ impl Model {
         self.palette.extend(placement::matrices_of(scene, node));
         let determinant = placement::determinant_of(&self.palette[first_joint as usize]);
         let scale = npr_core::math::powf(determinant.abs(), 1.0 / 3.0).max(1e-12);
-        let is_surface = |part: &&Part| !part.triangles.is_empty();
-        let parts: Vec<&Part> = mesh.parts.iter().filter(is_surface).collect();
-        let instance = Instance::new(&self.cache, scene, (node, &parts), scale, determinant < 0.0);
+        let mirrored = determinant < 0.0;
+        self.scales.insert(object, scale);
+        let parts = surfaces_of(mesh);
+        let instance = Instance::new(&self.cache, scene, (node, &parts), scale, mirrored);
         let base = [
             self.vertices.len() as u32,
             self.triangles.len() as u32,
@@ -141,6 +152,15 @@ impl Model {
         check_count("vertices", self.vertices.len(), instance.vertices.len())?;
         check_count("triangles", self.triangles.len(), instance.triangles.len())?;
         check_count("edges", self.edges.len(), instance.edges.len())?;
+
+        // Note where it begins, where it bends.
+        let first = [self.vertices.len(), self.triangles.len(), self.edges.len()];
+        self.bending.extend(instance.kept.map(|kept| Bending {
+            node: object,
+            first,
+            kept,
+            mirrored,
+        }));
 
         // Append vertices, triangles and edges, numbered as in the whole model.
         let joint_count = self.palette.len() as u32 - first_joint;
@@ -208,15 +228,27 @@ impl Model {
         self.radius
     }
 
-    /// Moves the model into the pose of a scene: the one that it was made of, with other places of nodes and joints.
+    /// Moves the model into the pose of a scene: the one that it was made of, with other places of nodes and joints,
+    /// and other weights of morphs ([`Scene::set_pose`]).
     ///
-    /// Meshes stay as they were prepared. Bounds, lights and cameras follow their nodes. No node may be turned inside
-    /// out that was not so before. O(vertices).
+    /// Vertices, triangles, edges and parts keep their numbers, and nothing is welded anew. Bounds, lights and cameras
+    /// follow; so do the folds of meshes with skins or morphs, which decide about creases, and the positions and
+    /// normals of meshes with morphs. Curvature, with the widths that hang on it, and radius stay those of the pose
+    /// that the model was made in; hard edges of meshes without normals too. No node may be turned inside out that was
+    /// not so before. O(vertices + edges of meshes that bend).
+    ///
+    /// The same pose gives the same model, bit for bit, whatever pose it had before.
     ///
     /// # Errors
     ///
     /// [`RenderError::OtherScene`] for a scene with another number of matrices; the model then stays as it is.
     pub fn set_pose(&mut self, scene: &Scene) -> Result<(), RenderError> {
+        self.pose(scene).map(drop)
+    }
+
+    /// As [`Self::set_pose`]; returns what changed besides matrices.
+    pub(crate) fn pose(&mut self, scene: &Scene) -> Result<Moved, RenderError> {
+        // Take over the matrices.
         let drawn = scene
             .nodes
             .iter()
@@ -231,11 +263,41 @@ impl Model {
             });
         }
         self.palette = palette;
+
+        // Let meshes that bend follow.
+        if self.unmorphed.is_none() && self.bending.iter().any(|bending| bending.has_morphs(scene))
+        {
+            self.unmorphed = Some(self.vertices.clone());
+        }
+        let mut lists = Lists {
+            vertices: &mut self.vertices,
+            triangles: &self.triangles,
+            edges: &mut self.edges,
+            normals_cos: &mut self.normals_cos,
+        };
+        let mut moved = Moved::default();
+        for bending in &self.bending {
+            let Moved { vertices, edges } = bending.follow(scene, &mut lists);
+            moved.vertices |= vertices;
+            moved.edges |= edges;
+        }
+
+        // Settle what depends on all of them.
         self.line_points = line_points(scene);
         self.bounds = npr_core::camera::bounds_of(self.posed_points());
         self.lights = file_light::of_scene(scene, self.bounds);
         self.cameras = placement::cameras_of(scene);
-        Ok(())
+        Ok(moved)
+    }
+
+    /// The vertices as they were prepared, before any pose.
+    pub(crate) fn unmorphed(&self) -> &[Vertex] {
+        self.unmorphed.as_ref().unwrap_or(&self.vertices)
+    }
+
+    /// How much longer things of an object are in the world than in its mesh, as it was prepared.
+    pub(crate) fn scale_of(&self, object: u32) -> f32 {
+        self.scales.get(&object).copied().unwrap_or(1.0)
     }
 
     /// The names of objects with surfaces, by their numbers, which count from 1.
@@ -295,6 +357,19 @@ impl Model {
     pub fn framing_with(&self, smoke: &Smoke, aspect: f32, fov_y: f32) -> Camera {
         let points = self.posed_points().chain(smoke.reach());
         Camera::framing_points(points.map(|point| point.to_array()), aspect, fov_y)
+    }
+
+    /// A view from three quarters above that the model together with smoke stays within while the camera turns about
+    /// an axis through `pivot`. `fov_y` is in radians. O(vertices).
+    pub fn framing_around(
+        &self,
+        smoke: &Smoke,
+        [pivot, axis]: [[f32; 3]; 2],
+        (aspect, fov_y): (f32, f32),
+    ) -> Camera {
+        let points: Vec<Vec3> = self.posed_points().chain(smoke.reach()).collect();
+        let swept = npr_core::camera::swept(points.iter().copied(), pivot, axis);
+        Camera::framing_points(swept.into_iter(), aspect, fov_y)
     }
 
     /// The box around the model and smoke; that of one alone where the other has nothing to draw.

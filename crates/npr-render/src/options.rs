@@ -56,6 +56,9 @@ pub struct RendererOptions {
     /// Whether [`Renderer::draw_bands`](crate::Renderer::draw_bands) draws the frame where it can: then memory is
     /// planned for a single band.
     pub in_bands: bool,
+    /// Whether every frame is decided by itself, so that it is the same in any sequence. Else, which is the default,
+    /// lines before a background (`line.background`) go on from the frame before.
+    pub alone: bool,
     /// Whether frames come with [`Frame::layers`](crate::Frame::layers), for compositing; those that are recorded for
     /// another program never do.
     pub layers: bool,
@@ -86,6 +89,7 @@ impl RendererOptions {
             memory_limit: 4 << 30,
             tile_pixels: TILE_PIXELS,
             in_bands: false,
+            alone: false,
             layers: false,
         }
     }

@@ -47,8 +47,8 @@ pub(crate) fn radius_of((min, max): Bounds) -> f32 {
     ((Vec3::from(max) - Vec3::from(min)).length() * 0.5).max(1e-12)
 }
 
-/// Cameras of a scene with their names, in the order of its nodes.
-pub(crate) fn cameras_of(scene: &Scene) -> Vec<(String, Camera)> {
+/// Cameras of a scene, as it is posed, with their names, in the order of its nodes. O(nodes).
+pub fn cameras_of(scene: &Scene) -> Vec<(String, Camera)> {
     let cameras = scene.nodes.iter().filter_map(|node| camera_of(scene, node));
     cameras.collect()
 }

@@ -22,6 +22,7 @@ use npr_core::budget::Budget;
 use npr_core::camera::Camera;
 use npr_gpu::cost::PassCost;
 use npr_gpu::engine::{Engine, IN_FLIGHT};
+use npr_scene::Scene;
 use npr_stylesheet::Style;
 use std::borrow::Cow;
 
@@ -36,12 +37,14 @@ pub(crate) fn without_lines(style: &Style) -> (Cow<'_, Style>, Option<String>) {
 
 /// A model, a style and a frame size on an engine: draws a picture for any camera.
 pub struct Renderer<'a> {
-    model: &'a Model,
+    engine: &'a dyn Engine,
+    /// The model, as it was given until it takes another pose.
+    model: Cow<'a, Model>,
     /// What the passes of a frame draw.
     frames: FrameRenderer,
     /// Gives the lines of parts whose method is `strokes` or `potrace`.
     lines: Option<LineRenderer<'a>>,
-    speed_lines: Option<SpeedLines<'a>>,
+    speed_lines: Option<SpeedLines>,
     /// The look that shows through, and how much of it.
     blended: Option<(Box<Renderer<'a>>, Blending)>,
     lettering: Lettering,
@@ -64,7 +67,7 @@ pub(crate) struct Begun {
 struct RendererPlan<'a> {
     model: &'a Model,
     frames: FramePlan,
-    speed_lines: Option<SpeedLines<'a>>,
+    speed_lines: Option<SpeedLines>,
     blended: Option<(Box<RendererPlan<'a>>, Blending)>,
     lettering: Lettering,
     /// Bytes planned for the renderer and the looks that it blends.
@@ -141,7 +144,7 @@ impl<'a> RendererPlan<'a> {
     /// Prepares all of it on an engine; both looks of a blend have the strokes of one line model.
     fn prepare(
         self,
-        engine: &dyn Engine,
+        engine: &'a dyn Engine,
         lines: Option<LineRenderer<'a>>,
     ) -> Result<Renderer<'a>, RenderError> {
         let blended = match self.blended {
@@ -152,7 +155,8 @@ impl<'a> RendererPlan<'a> {
             None => None,
         };
         Ok(Renderer {
-            model: self.model,
+            engine,
+            model: Cow::Borrowed(self.model),
             frames: self.frames.prepare(self.model, engine)?,
             lines,
             speed_lines: self.speed_lines,
@@ -175,7 +179,7 @@ impl<'a> Renderer<'a> {
     /// cannot be set, pictures that are missing or unfit, or a failing engine. All that can be known before is checked
     /// before the engine is asked for memory.
     pub fn new(
-        engine: &dyn Engine,
+        engine: &'a dyn Engine,
         model: &'a Model,
         style: &Style,
         options: &RendererOptions,
@@ -203,12 +207,12 @@ impl<'a> Renderer<'a> {
     ///
     /// As [`Renderer::new`].
     pub fn with_lines(
-        engine: &dyn Engine,
+        engine: &'a dyn Engine,
         (model, lines): (&'a Model, LineRenderer<'a>),
         style: &Style,
         options: &RendererOptions,
     ) -> Result<Self, RenderError> {
-        let plan = RendererPlan::new(model, style, options, Some(lines.model.parts()))?;
+        let plan = RendererPlan::new(model, style, options, Some(lines.model().parts()))?;
         plan.prepare(engine, Some(lines))
     }
 
@@ -231,6 +235,57 @@ impl<'a> Renderer<'a> {
             Some((other, _)) => other.set_smoke(smoke),
             None => Ok(()),
         }
+    }
+
+    /// Draws the pose of a scene from now on, in both looks of a blend: the scene that model and lines were made of, as
+    /// [`Model::set_pose`] and [`LineModel::set_pose`](crate::LineModel::set_pose) take it. Those that were given stay
+    /// as they are.
+    ///
+    /// With the first pose the model is copied. Nothing of its topology is made anew, and the engine is handed what
+    /// moved alone: matrices, folds that changed, vertices where morphs changed, lights. What the style lays on the
+    /// surface stays as it was: charts of hatching, id maps, ambient shade, and widths by control points.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Model::set_pose`] and [`LineModel::set_pose`](crate::LineModel::set_pose), or a failing engine.
+    pub fn set_pose(&mut self, scene: &Scene) -> Result<(), RenderError> {
+        // Move the model and its lines.
+        self.forget_begun();
+        let moved = self.model.to_mut().pose(scene)?;
+        if let Some(lines) = &mut self.lines {
+            lines.set_pose(scene)?;
+        }
+        if let Some(speed_lines) = &mut self.speed_lines {
+            speed_lines.follow(&self.model);
+        }
+
+        // Hand over what moved; other lights need other passes.
+        if !self.frames.pose(&self.model, moved)? {
+            self.plan_anew()?;
+        }
+        match &mut self.blended {
+            Some((other, _)) => other.set_pose(scene),
+            None => Ok(()),
+        }
+    }
+
+    /// Plans and prepares the frame for the model as it stands.
+    fn plan_anew(&mut self) -> Result<(), RenderError> {
+        let FramePlan {
+            style,
+            options,
+            graph_limit,
+            ..
+        } = &self.frames.plan;
+        let stroked = self.lines.as_ref().map(|lines| lines.model().parts());
+        let mut styled =
+            StyledModel::new(&self.model, style, options, stroked.unwrap_or_default())?;
+        styled.inked.notices.clear();
+        let mut plan = FramePlan::new(&self.model, style, options, styled);
+        plan.graph_limit = *graph_limit;
+        plan.set_notices(self.notices().to_vec());
+        self.frames = plan.prepare(&self.model, self.engine)?;
+        Ok(())
     }
 
     /// What is drawn in another way than the style asks, for the user.
@@ -268,7 +323,7 @@ impl<'a> Renderer<'a> {
         );
         self.forget_begun();
         let (found, strokes) = self.find_strokes(camera)?;
-        let mut aimed = self.frames.begin(self.model, camera, &found)?;
+        let mut aimed = self.frames.begin(&self.model, camera, &found)?;
         let [width, height] = self.frames.plan.options.size;
         let tiles = *self.frames.plan.tiles();
         let mut reported = Frame::new([width, 0]);
@@ -278,7 +333,7 @@ impl<'a> Renderer<'a> {
             let rows = tiles.kept[1].min(height - top);
             let mut band = Frame::new([width, rows]);
             for origin in tiles.origins().filter(|origin| origin[1] == top) {
-                let (aimed, at) = ((self.model, &mut aimed), (origin, top));
+                let (aimed, at) = ((&*self.model, &mut aimed), (origin, top));
                 self.frames.take_tile(aimed, at, &mut band)?;
                 self.tell_of(&tiles, origin);
             }
@@ -321,7 +376,7 @@ impl<'a> Renderer<'a> {
     /// Starts to draw the model, and the other look of a blend, as a camera sees it.
     pub(crate) fn begin(&mut self, camera: &Camera) -> Result<Begun, RenderError> {
         let (found, strokes) = self.find_strokes(camera)?;
-        let aimed = self.frames.begin(self.model, camera, &found)?;
+        let aimed = self.frames.begin(&self.model, camera, &found)?;
         let other = match &mut self.blended {
             Some((other, _)) => Some(Box::new(other.begin(camera)?)),
             None => None,
@@ -329,7 +384,7 @@ impl<'a> Renderer<'a> {
         let options = &self.frames.plan.options;
         let stroke_places = match options.layers && !found.seen.is_empty() {
             true => {
-                let base_px = self.frames.stroke_base_px(&aimed.view, camera, self.model);
+                let base_px = self.frames.stroke_base_px(&aimed.view, camera, &self.model);
                 let inked = (self.frames.plan.styled(), base_px);
                 stroke_places(found.seen, &aimed.view, inked, options.size)
             }
@@ -354,7 +409,7 @@ impl<'a> Renderer<'a> {
         frame.notices.extend_from_slice(self.notices());
         let tiles = *self.frames.plan.tiles();
         for origin in tiles.origins() {
-            let (aimed, at) = ((self.model, &mut begun.aimed), (origin, 0));
+            let (aimed, at) = ((&*self.model, &mut begun.aimed), (origin, 0));
             self.frames.take_tile(aimed, at, &mut frame)?;
             self.tell_of(&tiles, origin);
         }
@@ -409,7 +464,7 @@ impl<'a> Renderer<'a> {
         let view = &begun.aimed.view;
         let frames = &self.frames;
         if let Some(speed_lines) = &self.speed_lines {
-            speed_lines.finish(view, frame);
+            speed_lines.finish(&self.model, view, frame);
         }
         if let (Some((other, blending)), Some(begun)) = (&mut self.blended, begun.other) {
             blending.finish(&other.finish(*begun)?, frame);
@@ -417,7 +472,7 @@ impl<'a> Renderer<'a> {
 
         // Set the words over everything.
         let depths_on =
-            |size| Surfaces::new(self.model, &frames.plan.styled().parts, view, size).depths;
+            |size| Surfaces::new(&self.model, &frames.plan.styled().parts, view, size).depths;
         self.lettering
             .finish(view, frames.plan.options.dpi, frame, depths_on);
         Ok(())

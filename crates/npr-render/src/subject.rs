@@ -68,6 +68,19 @@ impl Subject {
         }
     }
 
+    /// Moves surfaces and lines into the pose of a scene: the one that they were made of.
+    ///
+    /// # Errors
+    ///
+    /// As [`Model::set_pose`] and [`LineModel::set_pose`].
+    pub fn set_pose(&mut self, scene: &Scene) -> Result<(), RenderError> {
+        self.model.set_pose(scene)?;
+        match &mut self.lines {
+            Some(lines) => lines.set_pose(scene),
+            None => Ok(()),
+        }
+    }
+
     /// A renderer of the scene, in a style and on an engine, which also finds its lines.
     ///
     /// # Errors

@@ -5,6 +5,7 @@
 
 pub(crate) mod accessor;
 pub(crate) mod buffers;
+pub(crate) mod clip;
 pub(crate) mod container;
 pub(crate) mod document;
 pub(crate) mod error;
@@ -50,7 +51,7 @@ fn read_document(
     bin: Option<&[u8]>,
     loading: &mut Loading,
 ) -> Result<Scene, SceneError> {
-    let mut root = document::parse(json, &loading.allowance.limits)?;
+    let mut root = parse(json, loading)?;
     stand_up_meshes(&mut root, loading);
     let tree = Tree::walk(&root, loading)?;
     let buffers = Buffers::read(&root, bin, loading)?;
@@ -64,6 +65,7 @@ fn read_document(
         nodes: tree.nodes(&root, loading),
         ..Scene::default()
     };
+    scene.clips = clip::read(&accessors, &tree, &scene.nodes, loading)?;
     mesh::read(&accessors, &tree, &mut scene, loading)?;
     skin::read(&accessors, &tree, &mut scene, loading)?;
     viewpoint::read(&root, &tree, &mut scene, loading);
@@ -76,6 +78,21 @@ fn read_document(
     note_what_is_ignored(&root, loading);
     describe(root, &tree, &mut scene);
     Ok(scene)
+}
+
+/// The document; without its animations, and with a notice, where only those cannot be read.
+fn parse(json: &[u8], loading: &mut Loading) -> Result<Root, SceneError> {
+    let limits = &loading.allowance.limits;
+    document::parse(json, limits).or_else(|fault| {
+        let SceneError::Gltf(GltfError::Json { .. }) = fault else {
+            return Err(fault);
+        };
+        let root = document::parse_without_animations(json).ok_or(fault)?;
+        loading
+            .notices
+            .add("the animations of the file cannot be read, and nothing moves");
+        Ok(root)
+    })
 }
 
 /// Gives every mesh of a file without nodes one at the origin, since such files are libraries of meshes.
@@ -102,9 +119,6 @@ fn describe(root: Root, tree: &Tree, scene: &mut Scene) {
 }
 
 fn note_what_is_ignored(root: &Root, loading: &mut Loading) {
-    if !root.animations.is_empty() {
-        loading.notices.add("animation is not played yet");
-    }
     for name in root
         .extensions_used
         .iter()

@@ -15,11 +15,15 @@
 //! # Ok::<(), npr_scene::SceneError>(())
 //! ```
 //!
+//! Clips of a glTF file move its nodes: [`Scene::pose_at`] gives a [`Pose`] at a time of a [`Clip`], and
+//! [`Scene::set_pose`] puts the scene into it.
+//!
 //! Files are hostile until proven sound: sizes are checked against [`Limits`] before memory is
 //! planned, trees are walked without recursion, and other files are reached only through
 //! [`Resources`], which [`FolderResources`] confines to the scene's own folder.
 
 mod camera;
+mod clip;
 mod decode;
 mod error;
 mod format;
@@ -32,6 +36,8 @@ mod loading;
 mod material;
 mod matrix;
 mod mesh;
+mod morph;
+mod morphing;
 mod node;
 mod notice;
 mod obj;
@@ -44,15 +50,18 @@ mod resources;
 mod scene;
 mod shown;
 mod skin;
+mod skinning;
 mod soundness;
 mod split;
 mod stl;
 #[cfg(any(test, feature = "testing"))]
 pub mod testing;
+mod transform;
 mod uri;
 mod words;
 
 pub use camera::{Camera, Projection};
+pub use clip::{Channel, Clip, Interpolation, Property};
 pub use error::SceneError;
 pub use format::Format;
 pub use gltf::{GltfError, Item};
@@ -62,12 +71,15 @@ pub use limits::{LimitError, Limits};
 pub use load::{LoadOptions, load, load_bytes};
 pub use material::{AlphaMode, Material, TextureTransform, TextureUse, Wrap};
 pub use matrix::Matrix;
-pub use mesh::{Mesh, Morph, POSITION_LIMIT, Part};
+pub use mesh::{Mesh, POSITION_LIMIT, Part};
+pub use morph::{Morph, Unmorphed};
 pub use node::Node;
 pub use notice::Notice;
 pub use obj::{Element as ObjElement, ObjError};
 pub use ply::PlyError;
+pub use pose::{Pose, PoseError};
 pub use resources::{FolderResources, MemoryResources, ResourceError, Resources};
 pub use scene::Scene;
 pub use skin::Skin;
 pub use stl::StlError;
+pub use transform::Transform;

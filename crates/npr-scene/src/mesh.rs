@@ -1,10 +1,17 @@
 //! Meshes: triangles and lines that share a node.
 
+use crate::morph::{Morph, Unmorphed};
+
 /// Largest magnitude of a position coordinate that counts as in range.
 ///
 /// Squares and products with transforms of the same size stay finite in `f32`; anything larger in a
 /// file is a fault rather than a shape.
 pub const POSITION_LIMIT: f32 = 1e18;
+
+/// Whether a position is finite and in range.
+pub(crate) fn is_sound(position: &[f32; 3]) -> bool {
+    position.iter().all(|v| v.abs() <= POSITION_LIMIT)
+}
 
 /// What one node draws.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -21,7 +28,7 @@ pub struct Mesh {
 /// may be degenerate, and name existing vertices only, as line segments do.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Part {
-    /// Vertex positions in mesh space, morphed by the default weights.
+    /// Vertex positions in mesh space, morphed by the weights of the pose.
     pub positions: Vec<[f32; 3]>,
     /// Vertex normals, finite and near unit length; none asks for flat shading.
     pub normals: Option<Vec<[f32; 3]>>,
@@ -51,19 +58,10 @@ pub struct Part {
     pub material: Option<u32>,
     /// Morph targets in file order; all parts of a mesh are meant to have the same number.
     pub morphs: Vec<Morph>,
+    /// The vertices before any morph; none where there are no morphs, or where they cannot take other weights.
+    pub unmorphed: Option<Box<Unmorphed>>,
     /// What styles may call the region of an id map that it is; empty where it is none. Files have none.
     pub ids: Vec<String>,
-}
-
-/// One morph target: offsets that a weight scales and adds.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Morph {
-    /// The weight already worked into the part's positions and normals.
-    pub applied_weight: f32,
-    /// Offset of each position.
-    pub positions: Option<Vec<[f32; 3]>>,
-    /// Offset of each normal.
-    pub normals: Option<Vec<[f32; 3]>>,
 }
 
 impl Part {
@@ -109,6 +107,12 @@ impl Part {
         for morph in &self.morphs {
             check_list(&morph.positions, count);
             check_list(&morph.normals, count);
+        }
+        if let Some(unmorphed) = &self.unmorphed {
+            assert_eq!(unmorphed.positions.len(), count, "list length");
+            check_list(&unmorphed.normals, count);
+            let both = (self.normals.is_some(), unmorphed.normals.is_some());
+            assert_eq!(both.0, both.1, "normals before and after morphs");
         }
     }
 }

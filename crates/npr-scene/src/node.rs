@@ -1,6 +1,7 @@
 //! Nodes: where things stand.
 
 use crate::matrix::{self, Matrix};
+use crate::transform::Transform;
 
 /// One place in the scene's tree, with what stands there.
 #[derive(Debug, Clone, PartialEq)]
@@ -11,9 +12,12 @@ pub struct Node {
     pub parent: Option<u32>,
     /// The nodes that hang on this one.
     pub children: Vec<u32>,
-    /// Parent space from node space, column-major.
+    /// Where it stands beside its parent at rest, in the parts that clips replace; none where the file gives a matrix
+    /// instead, or is of a format without clips. Such a node moves with its parent alone.
+    pub rest: Option<Transform>,
+    /// Parent space from node space, column-major, as posed.
     pub local: Matrix,
-    /// World space from node space, column-major.
+    /// World space from node space, column-major, as posed.
     pub world_from_node: Matrix,
     /// Index of the mesh drawn here.
     pub mesh: Option<u32>,
@@ -31,6 +35,7 @@ impl Default for Node {
             name: String::new(),
             parent: None,
             children: Vec::new(),
+            rest: None,
             local: matrix::IDENTITY,
             world_from_node: matrix::IDENTITY,
             mesh: None,

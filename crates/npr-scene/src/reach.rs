@@ -11,6 +11,19 @@ use crate::skin::Skin;
 ///
 /// Judged by bounds on meshes and matrices rather than by vertices: O(nodes + vertices as stored).
 pub(crate) fn bound(scene: &mut Scene, notices: &mut Notices) {
+    for index in carried_out_of_range(scene) {
+        // Draw nothing there.
+        let node = &mut scene.nodes[index];
+        (node.mesh, node.skin) = (None, None);
+        let name = shown(&node.name);
+        notices.add(format!(
+            "node '{name}' carries its mesh out of range, and nothing is drawn there"
+        ));
+    }
+}
+
+/// The nodes that may carry their mesh beyond [`POSITION_LIMIT`], in ascending order.
+pub(crate) fn carried_out_of_range(scene: &Scene) -> Vec<usize> {
     // Measure how far meshes reach, and how far skins may carry them.
     let meshes: Vec<f32> = scene.meshes.iter().map(mesh_reach).collect();
     let skins: Vec<f32> = scene
@@ -19,23 +32,19 @@ pub(crate) fn bound(scene: &mut Scene, notices: &mut Notices) {
         .map(|skin| skin_gain(scene, skin))
         .collect();
 
-    // Draw nothing at a node that may carry its mesh out of range.
-    for node in &mut scene.nodes {
+    // Find the nodes that may carry a mesh too far.
+    let nodes = scene.nodes.iter().enumerate();
+    let carried = nodes.filter(|(_, node)| {
         let Some(reach) = node.mesh.map(|mesh| meshes[mesh as usize]) else {
-            continue;
+            return false;
         };
         let gain = match node.skin {
             Some(skin) => skins[skin as usize].max(matrix::gain(&node.world_from_node)),
             None => matrix::gain(&node.world_from_node),
         };
-        if gain * reach > POSITION_LIMIT {
-            (node.mesh, node.skin) = (None, None);
-            let name = shown(&node.name);
-            notices.add(format!(
-                "node '{name}' carries its mesh out of range, and nothing is drawn there"
-            ));
-        }
-    }
+        gain * reach > POSITION_LIMIT
+    });
+    carried.map(|(index, _)| index).collect()
 }
 
 /// Largest coordinate of a mesh, at least 1.

@@ -1,6 +1,7 @@
 //! A loaded scene: plain data whose indices are all in range.
 
 use crate::camera::Camera;
+use crate::clip::Clip;
 use crate::image::Image;
 use crate::light::Light;
 use crate::material::Material;
@@ -20,7 +21,8 @@ pub struct Scene {
     pub name: String,
     /// Nodes of the default scene; a parent always precedes its children.
     pub nodes: Vec<Node>,
-    /// Meshes that nodes use. A mesh with two sets of morph weights appears twice.
+    /// Meshes that nodes use. A mesh with two sets of morph weights appears twice, and one whose weights a clip moves
+    /// once for every such node.
     pub meshes: Vec<Mesh>,
     /// Materials of the file; those that no part uses come without their image.
     pub materials: Vec<Material>,
@@ -32,6 +34,8 @@ pub struct Scene {
     pub lights: Vec<Light>,
     /// Skins that nodes use.
     pub skins: Vec<Skin>,
+    /// Movements of nodes, in the order of the file.
+    pub clips: Vec<Clip>,
     /// What was ignored or mended, each thing once.
     pub notices: Vec<Notice>,
     /// Names of the glTF extensions that the file says it uses.
@@ -58,7 +62,7 @@ impl Scene {
         self.parts().map(|part| part.positions.len()).sum()
     }
 
-    /// Lowest and highest corner of all drawn vertices in world space, in the pose of the file; none
+    /// Lowest and highest corner of all drawn vertices in world space, as it is posed; none
     /// where nothing is drawn. O(corners of triangles and ends of lines).
     pub fn bounds_world(&self) -> Option<([f32; 3], [f32; 3])> {
         let mut low = [f32::INFINITY; 3];
@@ -143,6 +147,12 @@ impl Scene {
             skin.joints
                 .iter()
                 .for_each(|&joint| assert_in(Some(joint), self.nodes.len(), "joint"));
+        }
+
+        // Check clips.
+        for channel in self.clips.iter().flat_map(|clip| &clip.channels) {
+            channel.sanity_check();
+            assert_in(Some(channel.node), self.nodes.len(), "node of a channel");
         }
     }
 

@@ -1,7 +1,7 @@
 //! The last step of every load: no number that is not finite leaves it.
 
 use crate::error::SceneError;
-use crate::mesh::{Mesh, POSITION_LIMIT, Part};
+use crate::mesh::{Mesh, POSITION_LIMIT, Part, is_sound};
 use crate::notice::Notices;
 use crate::reach;
 use crate::scene::Scene;
@@ -54,13 +54,21 @@ fn mend_mesh(Mesh { name, parts }: &mut Mesh, notices: &mut Notices) {
             drop_unsound(&mut morph.normals, "morph offsets", name, notices);
         });
         drop_unsound(&mut part.normals, "normals", name, notices);
+        if let Some(unmorphed) = &mut part.unmorphed {
+            drop_unsound(&mut unmorphed.normals, "normals", name, notices);
+            if part.normals.is_none() || unmorphed.normals.is_none() {
+                (part.normals, unmorphed.normals) = (None, None);
+            }
+        }
         drop_unsound(&mut part.uvs, "texture coordinates", name, notices);
         drop_unsound(&mut part.colors, "vertex colours", name, notices);
         drop_unsound(&mut part.weights, "joint weights", name, notices);
         drop_unsound(&mut part.directions, "stroke directions", name, notices);
 
         // Bring what is left into its range.
-        straighten_normals(part);
+        if let Some(normals) = &mut part.normals {
+            straighten_normals(normals, &part.positions, &part.triangles);
+        }
         part.colors
             .iter_mut()
             .flatten()
@@ -77,7 +85,6 @@ fn mend_mesh(Mesh { name, parts }: &mut Mesh, notices: &mut Notices) {
 /// each.
 fn drop_unsound_geometry(part: &mut Part) -> (usize, usize) {
     // Keep a part whose positions are all sound.
-    let is_sound = |position: &[f32; 3]| position.iter().all(|v| v.abs() <= POSITION_LIMIT);
     if part.positions.iter().all(is_sound) {
         return (0, 0);
     }
@@ -117,10 +124,11 @@ fn drop_unsound<const N: usize>(
 }
 
 /// Makes normals unit length; a zero normal becomes that of a face that uses it.
-fn straighten_normals(part: &mut Part) {
-    let Some(normals) = &mut part.normals else {
-        return;
-    };
+pub(crate) fn straighten_normals(
+    normals: &mut [[f32; 3]],
+    positions: &[[f32; 3]],
+    triangles: &[[u32; 3]],
+) {
     let mut has_zero = false;
     for normal in normals.iter_mut() {
         let length_squared = dot(*normal, *normal);
@@ -130,7 +138,7 @@ fn straighten_normals(part: &mut Part) {
         }
     }
     if has_zero {
-        fill_zero_normals(normals, &part.positions, &part.triangles);
+        fill_zero_normals(normals, positions, triangles);
     }
 }
 

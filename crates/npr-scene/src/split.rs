@@ -1,6 +1,6 @@
 //! Parts cut along their triangles.
 
-use crate::{Morph, Part};
+use crate::{Morph, Part, Unmorphed};
 use std::collections::BTreeMap;
 
 impl Part {
@@ -57,6 +57,7 @@ impl Part {
         // Take over what is known of these vertices.
         let morph = |morph: &Morph| Morph {
             applied_weight: morph.applied_weight,
+            rest_weight: morph.rest_weight,
             positions: gathered(&morph.positions, &kept),
             normals: gathered(&morph.normals, &kept),
         };
@@ -73,6 +74,13 @@ impl Part {
             segments,
             material: self.material,
             morphs: self.morphs.iter().map(morph).collect(),
+            unmorphed: self.unmorphed.as_deref().map(|whole| {
+                let positions = kept.iter().map(|v| whole.positions[*v as usize]);
+                Box::new(Unmorphed {
+                    positions: positions.collect(),
+                    normals: gathered(&whole.normals, &kept),
+                })
+            }),
             ids: self.ids.clone(),
         }
     }
@@ -95,7 +103,7 @@ mod tests {
         let morph = Morph {
             applied_weight: 0.5,
             positions: Some(numbers().map(|v| [v, 1.0, 0.0]).collect()),
-            normals: None,
+            ..Morph::default()
         };
         Part {
             positions: numbers().map(|v| [v, 0.0, 0.0]).collect(),
@@ -110,6 +118,10 @@ mod tests {
             triangles,
             material: Some(3),
             morphs: vec![morph],
+            unmorphed: Some(Box::new(Unmorphed {
+                positions: numbers().map(|v| [v, 2.0, 0.0]).collect(),
+                normals: Some(numbers().map(|v| [0.0, v, 2.0]).collect()),
+            })),
             ids: Vec::new(),
         }
     }
@@ -126,6 +138,8 @@ mod tests {
             part.weights.as_ref()?[v][0],
             part.directions.as_ref()?[v][2],
             part.morphs[0].positions.as_ref()?[v][0],
+            part.unmorphed.as_ref()?.positions[v][0],
+            part.unmorphed.as_ref()?.normals.as_ref()?[v][1],
         ];
         let is_even = part.marks.as_ref()?[v];
         let all = same.iter().all(|other| *other == number) && is_even == (number % 2.0 == 0.0);

@@ -1,4 +1,10 @@
-//! Small valid files made in memory, for tests, fuzzing and benches.
+//! Small valid files and scenes made in memory, for tests, fuzzing and benches.
+
+use crate::matrix;
+use crate::{
+    Camera, Channel, Clip, Interpolation, Light, LightKind, Mesh, Morph, Node, Part, Projection,
+    Property, Scene, Skin, Transform, Unmorphed,
+};
 
 /// A binary glTF file of `json` and, unless it is empty, `bin`.
 pub fn glb(json: &str, bin: &[u8]) -> Vec<u8> {
@@ -24,6 +30,199 @@ fn padded(bytes: &[u8], filler: u8) -> Vec<u8> {
     let mut bytes = bytes.to_vec();
     bytes.resize(bytes.len().next_multiple_of(4), filler);
     bytes
+}
+
+/// A binary glTF file of two triangles, a body and a wing on it, with two clips of two seconds: `Beat` turns the wing
+/// about x from a quarter turn back to where it rests, `Stretch` makes it three times as long, smoothly.
+pub fn wing() -> Vec<u8> {
+    let positions = [0f32, 0., 0., 1., 0., 0., 0., 1., 0.];
+    let times = [0f32, 2.];
+    let half = std::f32::consts::FRAC_1_SQRT_2;
+    let turns = [half, 0., 0., half, 0., 0., 0., 1.];
+    let flat = [0f32; 3];
+    let stretches = [flat, [1., 2., 1.], flat, flat, [1., 3., 1.], flat];
+    let numbers = positions.iter().chain(&times).chain(&turns);
+    let numbers = numbers.chain(stretches.as_flattened());
+    let bin: Vec<u8> = numbers.flat_map(|number| number.to_le_bytes()).collect();
+    let json = r#"{"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],
+        "nodes":[{"name":"body","mesh":0,"children":[1]},{"name":"wing","mesh":0,"translation":[0,1,0]}],
+        "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+        "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},
+        {"bufferView":0,"byteOffset":36,"componentType":5126,"count":2,"type":"SCALAR"},
+        {"bufferView":0,"byteOffset":44,"componentType":5126,"count":2,"type":"VEC4"},
+        {"bufferView":0,"byteOffset":76,"componentType":5126,"count":6,"type":"VEC3"}],
+        "bufferViews":[{"buffer":0,"byteLength":148}],"buffers":[{"byteLength":148}],
+        "animations":[{"name":"Beat","samplers":[{"input":1,"output":2}],
+        "channels":[{"sampler":0,"target":{"node":1,"path":"rotation"}}]},
+        {"name":"Stretch","samplers":[{"input":1,"output":3,"interpolation":"CUBICSPLINE"}],
+        "channels":[{"sampler":0,"target":{"node":1,"path":"scale"}}]}]}"#;
+    glb(json, &bin)
+}
+
+/// How many vertices go round the limb of [`limb`], and how many rings it has.
+const LIMB: [u32; 2] = [8, 9];
+
+/// A round limb that bends at a knee and bulges there, with a flag, a camera and a lamp below the knee.
+///
+/// Clip `Bend` turns the knee about x by 100 degrees in a second and moves the hip, `Bulge` sets the weight of the
+/// morph from 0 to 1. The limb has normals, or the morph alone has none and neither has the limb.
+pub fn limb(has_normals: bool) -> Scene {
+    // Roll up the limb.
+    let [around, rings] = LIMB;
+    let places: Vec<[f32; 2]> = (0..around * rings)
+        .map(|i| {
+            [
+                (i % around) as f32 / around as f32,
+                (i / around) as f32 / 4.0,
+            ]
+        })
+        .collect();
+    let out = |turn: f32| {
+        let angle = turn * std::f32::consts::TAU;
+        [npr_core::math::cos(angle), npr_core::math::sin(angle)]
+    };
+    let at = |[turn, height]: [f32; 2], radius: f32| {
+        let [x, z] = out(turn);
+        [x * radius, height, z * radius]
+    };
+    let bulge = |height: f32| 0.5 * (1.0 - (height - 1.0).abs()).max(0.0);
+    let positions: Vec<[f32; 3]> = places.iter().map(|place| at(*place, 0.3)).collect();
+    let level = |place: &[f32; 2]| at([place[0], 0.0], 1.0);
+    let normals: Option<Vec<[f32; 3]>> = has_normals.then(|| places.iter().map(level).collect());
+    let quad = |i: u32| {
+        let [here, beside] = [i, i / around * around + (i + 1) % around];
+        let [above, across] = [here + around, beside + around];
+        [[here, above, beside], [beside, above, across]]
+    };
+
+    // Hang it on two joints, and let it bulge.
+    let share = |height: f32| (height - 0.5).clamp(0.0, 1.0);
+    let weights = places.iter().map(|[_, height]| {
+        let knee = share(*height);
+        [1.0 - knee, knee, 0.0, 0.0]
+    });
+    let morph = Morph {
+        positions: Some(
+            places
+                .iter()
+                .map(|place| at([place[0], 0.0], bulge(place[1])))
+                .collect(),
+        ),
+        ..Morph::default()
+    };
+    let limb = Part {
+        positions: positions.clone(),
+        normals: normals.clone(),
+        joints: Some(vec![[0, 1, 0, 0]; places.len()]),
+        weights: Some(weights.collect()),
+        triangles: (0..around * (rings - 1)).flat_map(quad).collect(),
+        morphs: vec![morph],
+        unmorphed: Some(Box::new(Unmorphed { positions, normals })),
+        ..Part::default()
+    };
+    let flag = Part {
+        positions: vec![[0.0; 3], [0.8, 0.0, 0.0], [0.8, 0.5, 0.0], [0.0, 0.5, 0.0]],
+        triangles: vec![[0, 1, 2], [0, 2, 3]],
+        ..Part::default()
+    };
+
+    // Place everything.
+    let node = |name: &str, parent: Option<u32>, children: &[u32], translation: [f32; 3]| {
+        let rest = Transform {
+            translation,
+            ..Transform::default()
+        };
+        Node {
+            name: name.to_owned(),
+            parent,
+            children: children.to_vec(),
+            rest: Some(rest),
+            local: rest.matrix(),
+            ..Node::default()
+        }
+    };
+    let mut nodes = vec![
+        node("limb", None, &[], [0.0; 3]),
+        node("hip", None, &[2], [0.0; 3]),
+        node("knee", Some(1), &[3, 4, 5], [0.0, 1.0, 0.0]),
+        node("flag", Some(2), &[], [0.0, 1.0, 0.0]),
+        node("eye", Some(2), &[], [0.0, 0.0, 4.0]),
+        node("lamp", Some(2), &[], [0.0, 2.0, 0.0]),
+    ];
+    for index in 0..nodes.len() {
+        let parent = nodes[index]
+            .parent
+            .map(|parent| nodes[parent as usize].world_from_node);
+        let local = nodes[index].local;
+        nodes[index].world_from_node =
+            parent.map_or(local, |world| matrix::multiply(&world, &local));
+    }
+    (nodes[0].mesh, nodes[0].skin) = (Some(0), Some(0));
+    (nodes[3].mesh, nodes[4].camera, nodes[5].light) = (Some(1), Some(0), Some(0));
+    let down =
+        |height: f32| matrix::from_parts([0.0, -height, 0.0], [0.0, 0.0, 0.0, 1.0], [1.0; 3]);
+    let channel = |node, property, values: &[f32]| Channel {
+        node,
+        property,
+        interpolation: Interpolation::Linear,
+        times: [0.0, 1.0].into(),
+        values: values.into(),
+    };
+    let [sin, cos] = [
+        npr_core::math::sin(0.872_664_6),
+        npr_core::math::cos(0.872_664_6),
+    ];
+    let clip = |name: &str, channels: Vec<Channel>| Clip {
+        name: name.to_owned(),
+        channels,
+    };
+    let scene = Scene {
+        nodes,
+        meshes: [limb, flag]
+            .map(|part| Mesh {
+                name: String::new(),
+                parts: vec![part],
+            })
+            .to_vec(),
+        skins: vec![Skin {
+            name: String::new(),
+            joints: vec![1, 2],
+            inverse_bind: vec![down(0.0), down(1.0)],
+        }],
+        cameras: vec![Camera {
+            name: "eye".to_owned(),
+            projection: Projection::Perspective {
+                yfov: 0.7,
+                znear: 0.1,
+                zfar: None,
+                aspect: None,
+            },
+        }],
+        lights: vec![Light {
+            name: "lamp".to_owned(),
+            kind: LightKind::Point,
+            color: [1.0; 3],
+            intensity: 10.0,
+            range: None,
+        }],
+        clips: vec![
+            clip(
+                "Bend",
+                vec![
+                    channel(
+                        2,
+                        Property::Rotation,
+                        &[0.0, 0.0, 0.0, 1.0, sin, 0.0, 0.0, cos],
+                    ),
+                    channel(1, Property::Translation, &[0.0, 0.0, 0.0, 0.3, 0.1, 0.2]),
+                ],
+            ),
+            clip("Bulge", vec![channel(0, Property::Weights, &[0.0, 1.0])]),
+        ],
+        ..Scene::default()
+    };
+    scene.sanity_check();
+    scene
 }
 
 /// A wavy sheet in the xz plane, as raw lists that every format can be written from.

@@ -12,5 +12,6 @@ mod lines;
 mod models;
 mod pixel_strokes;
 mod polylines;
+mod poses;
 mod skies;
 mod smoke;

@@ -1,6 +1,6 @@
 //! The arguments of all commands that draw scenes.
 
-use super::{CameraArguments, LimitArguments, LookArguments, Size, VolumeArguments};
+use super::{CameraArguments, LimitArguments, LookArguments, PoseArguments, Size, VolumeArguments};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
@@ -16,6 +16,9 @@ pub struct DrawingArguments {
     /// The camera.
     #[command(flatten)]
     pub camera: CameraArguments,
+    /// The pose.
+    #[command(flatten)]
+    pub pose: PoseArguments,
     /// The style.
     #[command(flatten)]
     pub look: LookArguments,

@@ -1,6 +1,6 @@
 //! Prints an inventory in words. Characters of names that could upset a terminal are escaped.
 
-use super::{Bounds, Drawn, Image, Inventory, Material, Named, Skin};
+use super::{Bounds, Clip, Drawn, Image, Inventory, Material, Named, Skin};
 use crate::message::{name, plain};
 use std::fmt::Write;
 
@@ -24,6 +24,12 @@ impl Inventory {
         list(&mut text, "camera", self.cameras.iter().map(Named::text));
         list(&mut text, "light", self.lights.iter().map(Named::text));
         list(&mut text, "skin", self.skins.iter().map(Skin::text));
+        let clips = self.clips.iter().enumerate();
+        list(
+            &mut text,
+            "clip",
+            clips.map(|(index, clip)| clip.text(index)),
+        );
         list(
             &mut text,
             "extension",
@@ -139,6 +145,14 @@ impl Image {
 impl Named {
     fn text(&self) -> String {
         format!("'{}' {}", name(&self.name), self.kind)
+    }
+}
+
+impl Clip {
+    fn text(&self, index: usize) -> String {
+        let (name, seconds) = (name(&self.name), self.duration_s);
+        let channels = self.channel_count;
+        format!("{index} '{name}' {seconds:.2} s, {channels} channels")
     }
 }
 

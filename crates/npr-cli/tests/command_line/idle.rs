@@ -284,6 +284,137 @@ const DRAWINGS: &[Case] = &[
         &["--volume", "puff@2,0,1*0.5"],
         Acts,
     ),
+    (
+        &["render", "wing.glb", "-o", "a.png"],
+        &["--clip", "Beat"],
+        Acts,
+    ),
+    (
+        &["lines", "wing.glb", "-o", "a.svg"],
+        &["--clip", "1"],
+        Acts,
+    ),
+    (
+        &["render", "wing.glb", "-o", "a.png"],
+        &["--time", "0.5"],
+        Acts,
+    ),
+    (
+        &["lines", "wing.glb", "-o", "a.svg", "--clip", "Beat"],
+        &["--time", "0.5"],
+        Acts,
+    ),
+    (
+        &["render", "scene.obj", "-o", "a.png"],
+        &["--time", "0.5"],
+        Told("--time is ignored: "),
+    ),
+    (
+        &["lines", "scene.obj", "-o", "a.svg"],
+        &["--time", "0.5"],
+        Told("--time is ignored: "),
+    ),
+];
+
+/// A film of one frame of the box, as pictures and as line drawings.
+const TURN: &[&str] = &[
+    "animate",
+    "scene.obj",
+    "--turntable",
+    "--frames",
+    "2",
+    "--length",
+    "9",
+    "-o",
+    "a.png",
+];
+const ORBIT: &[&str] = &[
+    "animate",
+    "scene.obj",
+    "--orbit",
+    "40",
+    "--frames",
+    "2",
+    "-o",
+    "a.png",
+];
+const LINES: &[&str] = &[
+    "animate",
+    "scene.obj",
+    "--orbit",
+    "40",
+    "--frames",
+    "0",
+    "-o",
+    "a.svg",
+];
+const PLAYED: &[&str] = &[
+    "animate",
+    "scene.obj",
+    "--orbit",
+    "40",
+    "--frames",
+    "2..3",
+    "-o",
+    "a.gif",
+];
+const OF_LINES: &str = "is ignored: frames are pictures: --lines draws the lines alone";
+
+const BEAT: &[&str] = &["animate", "wing.glb", "--frames", "3", "-o", "a.png"];
+
+const ANIMATIONS: &[Case] = &[
+    (BEAT, &["--fps", "6"], Acts),
+    (BEAT, &["--clip", "1"], Acts),
+    (BEAT, &["--turntable", "--length", "7"], Acts),
+    (
+        &[
+            "animate", "wing.glb", "--frames", "3", "--orbit", "9", "-o", "a.png",
+        ],
+        &["--time", "0.5"],
+        Acts,
+    ),
+    (
+        ORBIT,
+        &["--time", "0.5"],
+        Told("--time is ignored: the scene has no clips"),
+    ),
+    (TURN, &["--length", "8"], Acts),
+    (TURN, &["--frames", "3"], Acts),
+    (TURN, &["--lines"], Acts),
+    (
+        TURN,
+        &["--fps", "12"],
+        Told("--fps is ignored: every file holds one frame, and no clip plays"),
+    ),
+    (ORBIT, &["--orbit", "-40"], Acts),
+    (ORBIT, &["--length", "8"], Told("--length is ignored: ")),
+    (ORBIT, &["--eye", "3,4,5"], Acts),
+    (ORBIT, &["--style", "ink"], Acts),
+    (ORBIT, &["--seed", "9"], Told("--seed is ignored: ")),
+    (ORBIT, &["--volume", "puff@2,0,1*0.5"], Acts),
+    (PLAYED, &["--fps", "12"], Acts),
+    (LINES, &["--kinds", "contour"], Acts),
+    (LINES, &["--crease", "100"], Acts),
+    (LINES, &["--crease-from", "faces"], Acts),
+    (LINES, &["--split", "30"], Acts),
+    (LINES, &["--hidden", "dashed"], Acts),
+    (LINES, &["--fill"], Acts),
+    (LINES, &["--svg", "centreline"], Acts),
+    (LINES, &["--page", "A4"], Acts),
+    (LINES, &["--weld", "0.1"], Acts),
+    (LINES, &["--painted"], Told("--painted is ignored: ")),
+    (ORBIT, &["--kinds", "contour"], Told(OF_LINES)),
+    (ORBIT, &["--crease", "100"], Told(OF_LINES)),
+    (ORBIT, &["--crease-from", "faces"], Told(OF_LINES)),
+    (ORBIT, &["--split", "30"], Told(OF_LINES)),
+    (ORBIT, &["--method", "surface"], Told(OF_LINES)),
+    (ORBIT, &["--hidden", "dashed"], Told(OF_LINES)),
+    (ORBIT, &["--smooth", "off"], Told(OF_LINES)),
+    (ORBIT, &["--fill"], Told(OF_LINES)),
+    (ORBIT, &["--painted"], Told(OF_LINES)),
+    (ORBIT, &["--weld", "0.1"], Told(OF_LINES)),
+    (ORBIT, &["--svg", "centreline"], Told(OF_LINES)),
+    (ORBIT, &["--page", "A4"], Told(OF_LINES)),
 ];
 
 const SMOKES: &[Case] = &[
@@ -301,6 +432,7 @@ const SMOKES: &[Case] = &[
     (PUFF, &["--frames", "3"], Acts),
     (PUFF, &["--grid", "8x8x9"], Acts),
     (PUFF, &["--step", "2"], Told("--step is ignored: ")),
+    (PUFF, &["--time", "1"], Told("--time is ignored: ")),
     (PUFF, &["--density", "x"], Told("--density is ignored: ")),
     (
         PUFF,
@@ -388,6 +520,14 @@ const EXCEPTIONS: &[(&str, &str)] = &[
     ("format", "it says what the file is, whatever its name"),
     ("quiet", "it is about messages"),
     ("timings", "it is about messages"),
+    (
+        "resume",
+        "it is about work that is done; `animate::` tests it",
+    ),
+    (
+        "turntable",
+        "it is in every film that has no --orbit, and not beside it",
+    ),
     ("backend", "engines agree"),
     ("cache", "it is about time"),
     ("method", "it says where lines come from"),
@@ -481,7 +621,16 @@ fn without<'a>(line: &[&'a str], more: &[&str]) -> Vec<&'a str> {
 fn options_of_drawings_act_or_are_told() {
     let place = Workplace::new();
     place.put("scene.obj", BOX);
+    place.put("wing.glb", &npr_scene::testing::wing());
     run_all(&place, DRAWINGS, &SMALL);
+}
+
+#[test]
+fn options_of_films_act_or_are_told() {
+    let place = Workplace::new();
+    place.put("scene.obj", BOX);
+    place.put("wing.glb", &npr_scene::testing::wing());
+    run_all(&place, ANIMATIONS, &SMALL);
 }
 
 #[test]
@@ -501,14 +650,18 @@ fn every_option_of_every_drawing_command_is_tried() {
     let mut command = npr_cli::command();
     command.build();
     let tried = |name: &str| {
-        let cases = DRAWINGS.iter().chain(SMOKES).chain(TRACINGS);
+        let cases = DRAWINGS
+            .iter()
+            .chain(ANIMATIONS)
+            .chain(SMOKES)
+            .chain(TRACINGS);
         let option = format!("--{}", name.replace('_', "-"));
         cases
             .flat_map(|(_, option, _)| option.iter())
             .any(|word| *word == option)
     };
     let mut missing = Vec::new();
-    for name in ["render", "lines", "smoke", "trace"] {
+    for name in ["render", "lines", "animate", "smoke", "trace"] {
         let found: &Command = command.find_subcommand(name).expect("a command");
         for option in found
             .get_arguments()

@@ -1,10 +1,14 @@
 //! The command `npr` as scripts see it: exit codes, messages, streams and files.
 
+mod animate;
 mod broken_bitmaps;
+mod clips;
 mod closing;
 mod colors;
 mod debug_layers;
 mod determinism;
+mod farm;
+mod ffmpeg;
 mod files;
 mod id_maps;
 mod idle;

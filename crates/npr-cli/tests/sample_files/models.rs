@@ -1,4 +1,4 @@
-//! Every sample model gives a line drawing.
+//! Every sample model gives a line drawing, and those with clips play.
 
 use crate::files::{SCENES, samples, written};
 
@@ -34,5 +34,34 @@ fn crowds_of_faces_are_drawn_in_bounds() {
             "{}",
             file.display()
         );
+    }
+}
+
+/// Models with clips: skins, morphs, and parts that move.
+const PLAYED: [&str; 4] = [
+    "animated_morph_cube",
+    "fox",
+    "rigged_figure",
+    "robot_animated",
+];
+
+/// Hatching, strokes and lines lie in a frame of a film where they lie in the picture of its time.
+#[test]
+fn a_frame_of_a_clip_is_the_picture_of_its_time() {
+    let view = "--size 240x136 --quiet --backend cpu --eye 3,2,5 --target 0,1,0 --style";
+    let view: Vec<&str> = view.split(' ').collect();
+    let is_played = |file: &&std::path::PathBuf| {
+        PLAYED
+            .iter()
+            .any(|name| file.file_stem().is_some_and(|stem| stem == *name))
+    };
+    let files = samples("models", &["glb"]);
+    for file in files.iter().filter(is_played) {
+        for style in ["toon", "comic-silver", "manga", "crosshatch"] {
+            let drawn = |command: &[&str]| written(&[command, &view, &[style]].concat(), file);
+            let frame = drawn(&["animate", "--frames", "3", "--fps", "8"]);
+            let still = drawn(&["render", "--time", "0.375"]);
+            assert!(frame == still, "{} in {style}", file.display());
+        }
     }
 }

@@ -118,4 +118,25 @@ impl Contours {
         session.write(self.half_edges, bytemuck::cast_slice(&half_edges(shape)))?;
         session.write(self.judges, &judges(shape))
     }
+
+    /// Hands a shape over that differs from the one `before` by its pose alone.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::write_shape`].
+    pub fn write_pose(
+        &self,
+        session: &mut dyn Session,
+        before: &HalfEdgeMesh,
+        shape: &HalfEdgeMesh,
+    ) -> Result<(), EngineError> {
+        session.write(self.positions, bytemuck::cast_slice(&shape.positions))?;
+        if shape.twins != before.twins {
+            session.write(self.half_edges, bytemuck::cast_slice(&half_edges(shape)))?;
+        }
+        if shape.degenerate_faces != before.degenerate_faces {
+            session.write(self.judges, &judges(shape))?;
+        }
+        Ok(())
+    }
 }

@@ -10,6 +10,7 @@ use npr_vector::mesh_lines::contour::steps::Viewer;
 use npr_vector::mesh_lines::contour::{EdgeContours, Eye, usual_room};
 use npr_vector::mesh_lines::graph::{CurveGraph, CurveNode};
 use npr_vector::rank::Ranked;
+use std::borrow::Cow;
 
 /// A shape in an engine's memory, for contours of any number of views.
 ///
@@ -19,7 +20,7 @@ use npr_vector::rank::Ranked;
 /// engine, and 32 for each node that there is room for.
 pub struct ResidentShape<'a> {
     engine: &'a dyn Engine,
-    shape: &'a HalfEdgeMesh,
+    shape: Cow<'a, HalfEdgeMesh>,
     scheme: Option<Scheme>,
     room: Room,
     node_count: usize,
@@ -65,12 +66,27 @@ impl<'a> ResidentShape<'a> {
         let capacity = usual_room(shape.faces.len());
         Ok(Self {
             engine,
-            shape,
+            shape: Cow::Borrowed(shape),
             scheme,
             room: Room::new(engine, shape, scheme, capacity)?,
             node_count: 0,
             times: Vec::new(),
         })
+    }
+
+    /// Takes over a pose of the shape: the same one, with its vertices elsewhere. Positions are handed over, and
+    /// half-edges and judges where they differ.
+    ///
+    /// # Errors
+    ///
+    /// [`EngineError`] where the engine fails.
+    pub fn set_pose(&mut self, shape: &HalfEdgeMesh) -> Result<(), EngineError> {
+        let Room {
+            session, contours, ..
+        } = &mut self.room;
+        contours.write_pose(session.as_mut(), &self.shape, shape)?;
+        self.shape.to_mut().clone_from(shape);
+        Ok(())
     }
 
     /// Which faces are turned to an eye, and the contours, bit for bit as [`EdgeContours::new`] gives them.
@@ -98,7 +114,7 @@ impl<'a> ResidentShape<'a> {
         if count > self.room.capacity {
             // Counting went on past the room, so once is enough.
             let capacity = count.next_power_of_two();
-            self.room = Room::new(self.engine, self.shape, self.scheme, capacity)?;
+            self.room = Room::new(self.engine, &self.shape, self.scheme, capacity)?;
             read = self.run(eye, &|| ())?;
         }
         self.node_count = count;

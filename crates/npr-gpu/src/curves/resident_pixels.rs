@@ -16,6 +16,7 @@ use npr_vector::pixel_strokes::stroke::Loops;
 use npr_vector::pixel_strokes::{
     PixelScene, PublishedPath, Traced, scene_depths, standings_of, trace,
 };
+use std::borrow::Cow;
 
 /// What hides the lines of a view.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -69,7 +70,7 @@ impl<'a> Hiders<'a> {
 /// picture or other filters.
 pub struct ResidentPixels<'a> {
     engine: &'a dyn Engine,
-    shape: &'a HalfEdgeMesh,
+    shape: Cow<'a, HalfEdgeMesh>,
     room: PixelRoom,
     made: Option<Made>,
     times: Vec<PassTime>,
@@ -99,10 +100,23 @@ impl<'a> ResidentPixels<'a> {
     pub fn new(engine: &'a dyn Engine, shape: &'a HalfEdgeMesh) -> Self {
         Self {
             engine,
-            shape,
+            shape: Cow::Borrowed(shape),
             room: PixelRoom::FIRST,
             made: None,
             times: Vec::new(),
+        }
+    }
+
+    /// Takes over a pose of the shape: the same one, with its vertices elsewhere, which is handed over again.
+    ///
+    /// # Errors
+    ///
+    /// [`CurvesError::Engine`] where the engine fails.
+    pub fn set_pose(&mut self, shape: &HalfEdgeMesh) -> Result<(), CurvesError> {
+        self.shape.to_mut().clone_from(shape);
+        match &mut self.made {
+            Some(made) => made.write_shape(&self.shape),
+            None => Ok(()),
         }
     }
 
@@ -137,14 +151,18 @@ impl<'a> ResidentPixels<'a> {
         meanwhile: &dyn Fn(),
     ) -> Result<(Traced, Loops), CurvesError> {
         // Trace an empty picture without the engine.
-        self.times.clear();
-        let on = &PixelScene {
-            shape: self.shape,
-            ..*on
-        };
+        let Self {
+            engine,
+            shape,
+            room,
+            made: last,
+            times: told,
+        } = self;
+        told.clear();
+        let on = &PixelScene { shape, ..*on };
         let view = on.pixel_view(path);
         let pixel_count = view.size[0] as usize * view.size[1] as usize;
-        if pixel_count == 0 || self.shape.faces.is_empty() {
+        if pixel_count == 0 || shape.faces.is_empty() {
             let traced = trace(on, path, &hiders.depths(on))?;
             let loops = Loops::new(&traced, path);
             return Ok((traced, loops));
@@ -153,7 +171,8 @@ impl<'a> ResidentPixels<'a> {
         // Run the graph, with more room each time that it did not suffice.
         let mut meanwhile = Some(meanwhile);
         loop {
-            let made = self.prepared(on, path, hiders.kind())?;
+            let plan = Plan::new(on, path, hiders.kind(), *room);
+            let made = Made::for_plan(last, *engine, shape, plan)?;
             let (session, contours) = (made.session.as_mut(), &made.contours);
             contours.write_view(session, on, path, hiders.given())?;
             made.strips.write(session, path)?;
@@ -166,10 +185,10 @@ impl<'a> ResidentPixels<'a> {
             let needed = contours.needed(&mut read);
             if made.plan.room.holds(needed) {
                 let found = made.found(view, needed, &mut read);
-                self.times = times;
+                *told = times;
                 return found;
             }
-            self.room = self.room.grown(needed);
+            *room = room.grown(needed);
         }
     }
 
@@ -177,35 +196,37 @@ impl<'a> ResidentPixels<'a> {
     pub fn times(&self) -> &[PassTime] {
         &self.times
     }
+}
 
-    /// The graph for a view; the last one if it fits.
-    fn prepared(
-        &mut self,
-        on: &PixelScene<'_>,
-        path: &PublishedPath,
-        hiding: Hiding,
-    ) -> Result<&mut Made, CurvesError> {
-        // Say what this view needs.
-        let plan = Plan {
+impl Plan {
+    /// What a view needs.
+    fn new(on: &PixelScene<'_>, path: &PublishedPath, hiding: Hiding, room: PixelRoom) -> Self {
+        Self {
             size: on.pixel_view(path).size,
             hiding,
             path: *path,
-            room: self.room,
+            room,
             creases: on.creases,
             is_drawn: on.is_drawn.to_vec(),
-        };
-
-        // Keep the last graph where it needs the same.
-        let last = self.made.take().filter(|made| made.plan == plan);
-        let made = match last {
-            Some(made) => made,
-            None => Made::new(self.engine, self.shape, plan)?,
-        };
-        Ok(self.made.insert(made))
+        }
     }
 }
 
 impl Made {
+    /// The graph for a view; the last one where that needs the same.
+    fn for_plan<'m>(
+        last: &'m mut Option<Self>,
+        engine: &dyn Engine,
+        shape: &HalfEdgeMesh,
+        plan: Plan,
+    ) -> Result<&'m mut Self, CurvesError> {
+        let made = match last.take().filter(|made| made.plan == plan) {
+            Some(made) => made,
+            None => Self::new(engine, shape, plan)?,
+        };
+        Ok(last.insert(made))
+    }
+
     fn new(engine: &dyn Engine, shape: &HalfEdgeMesh, plan: Plan) -> Result<Self, CurvesError> {
         let mut graph = Graph::new();
         let scheme = Scheme::Wyllie {
@@ -214,15 +235,24 @@ impl Made {
         let picture = (plan.size, plan.hiding);
         let contours = add_pixel_contours(&mut graph, shape, picture, plan.room, scheme);
         let strips = add_strips(&mut graph, &contours, &plan.path);
-        let mut session = engine.prepare(graph)?;
-        let edges = drawn_edges(shape, plan.creases, &plan.is_drawn);
-        contours.write_shape(session.as_mut(), shape, &edges)?;
-        Ok(Self {
+        let mut made = Self {
+            session: engine.prepare(graph)?,
             plan,
-            session,
             contours,
             strips,
-        })
+        };
+        made.write_shape(shape)?;
+        Ok(made)
+    }
+
+    /// Hands the shape over.
+    fn write_shape(&mut self, shape: &HalfEdgeMesh) -> Result<(), CurvesError> {
+        let Plan {
+            creases, is_drawn, ..
+        } = &self.plan;
+        let edges = drawn_edges(shape, *creases, is_drawn);
+        self.contours
+            .write_shape(self.session.as_mut(), shape, &edges)
     }
 
     /// What a run found, as it was read.

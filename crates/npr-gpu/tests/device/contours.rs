@@ -249,3 +249,41 @@ impl Session for CountingSession {
         self.session.read_all(ids)
     }
 }
+
+#[test]
+fn a_pose_has_contours_of_its_own() {
+    for (name, mesh) in [("icosphere", icosphere(4)), ("soup", random_soup(600, 5))] {
+        let [rest, moved, far] = [None, Some(3), Some(4)].map(|seed| {
+            let posed = seed.map_or_else(|| mesh.clone(), |seed| bumpy(&mesh, seed));
+            let mut shape = shape_from(&mesh);
+            shape.positions = shape_from(&posed).positions;
+            shape
+        });
+        for engine in engines() {
+            let mut resident = ResidentShape::new(engine, &rest).unwrap();
+            for shape in [&moved, &far, &rest, &moved] {
+                resident.set_pose(shape).unwrap();
+                for eye in &eyes(1.0) {
+                    let found = resident.contours(eye).unwrap();
+                    assert!(found == plain(shape, eye), "{name}, {}", engine.describe());
+                }
+            }
+        }
+    }
+}
+
+/// Of a pose that folds nothing to a line, positions cross to the engine and nothing else.
+#[test]
+fn a_pose_hands_over_its_positions_only() {
+    let shape = shape_from(&uv_sphere(32, 20));
+    let mut moved = shape.clone();
+    moved
+        .positions
+        .iter_mut()
+        .for_each(|position| position[0] *= 1.5);
+    let counting = Counting::default();
+    let mut resident = ResidentShape::new(&counting, &shape).unwrap();
+    counting.words.set(0);
+    resident.set_pose(&moved).unwrap();
+    assert_eq!(counting.words.get(), 3 * shape.positions.len());
+}

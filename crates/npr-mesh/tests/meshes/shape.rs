@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use glam::DVec3;
 use npr_core::geometry::NONE;
 use npr_mesh::half_edge::{HalfEdgeMesh, Surface};
-use npr_mesh::shape::{PlacedMesh, Preparation, add_mesh};
+use npr_mesh::shape::{MeshPose, PlacedMesh, Preparation, add_mesh, add_posable_mesh, set_pose};
 use npr_mesh::testing::{
     Random, cube, cylinder, fan, icosphere, moebius_strip, plane, random_soup, random_winding,
     shuffled_vertices, torus, unindexed, uv_sphere, with_doubles,
@@ -611,5 +611,39 @@ proptest! {
         let mesh = random_winding(&torus(9, 7, 1.0, 0.3), seed);
         let (of_soup, of_mesh) = (prepare(&soup).1, prepare(&mesh).1);
         prop_assert_eq!(of_soup, of_mesh);
+    }
+}
+
+proptest! {
+    #[test]
+    fn a_posed_shape_is_the_one_that_is_made_of_the_posed_meshes(
+        faces in prop::collection::vec(prop::array::uniform3(0u32..9), 1..24),
+        poses in prop::collection::vec(prop::collection::vec(prop::array::uniform3(-2i8..3), 9), 1..4),
+        normals in prop::collection::vec(prop::array::uniform3(-2i8..3), 9),
+        has_normals in any::<bool>(),
+    ) {
+        // Few places make faces without area, and many faces on an edge make wedges.
+        let real = |rows: &[[i8; 3]]| -> Vec<[f32; 3]> { rows.iter().map(|row| row.map(f32::from)).collect() };
+        let rest: Vec<[f32; 3]> = (0..9).map(|i| [i as f32, (i * i) as f32, 0.5]).collect();
+        let worlds: Vec<Vec<[f32; 3]>> = poses.iter().map(|pose| real(pose)).collect();
+        let of_face = vec![0; faces.len()];
+        let normals = if has_normals { real(&normals) } else { Vec::new() };
+        let mesh = |world| PlacedMesh {
+            rest: &rest, world, normals: &normals, triangles: &faces, surfaces: &of_face, ..PlacedMesh::default()
+        };
+        let plain = |world| PlacedMesh { normals: &[], ..mesh(world) };
+        let mut shape = surfaces(1);
+        let (_, first) = add_posable_mesh(&mut shape, &mesh(&rest), 0.0);
+        let (_, second) = add_posable_mesh(&mut shape, &plain(&rest), 0.0);
+        let meshes = [first, second];
+        for world in &worlds {
+            let moved = [normals.clone(), Vec::new()].map(|normals| MeshPose { world: world.clone(), normals });
+            set_pose(&mut shape, &meshes, &moved);
+            shape.sanity_check();
+            let mut fresh = surfaces(1);
+            add_mesh(&mut fresh, &mesh(world), 0.0);
+            add_mesh(&mut fresh, &plain(world), 0.0);
+            prop_assert_eq!(&shape, &fresh);
+        }
     }
 }

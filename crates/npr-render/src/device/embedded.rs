@@ -117,8 +117,8 @@ impl EmbeddedRenderer {
         self.follow(planned, Some(model))
     }
 
-    /// Draws the model in the pose of a scene from now on, as [`Model::set_pose`] takes it: matrices are uploaded, and
-    /// lights that move with the scene.
+    /// Draws the model in the pose of a scene from now on, as [`Model::set_pose`] takes it: matrices are uploaded,
+    /// lights that move with the scene, folds that changed, and vertices where morphs move them.
     ///
     /// What the style lays on the surface itself stays as it was: strokes go with their surface, and what the sky does
     /// not reach is that of the pose in which the style was set.
@@ -127,8 +127,8 @@ impl EmbeddedRenderer {
     ///
     /// [`RenderError::OtherScene`] as by [`Model::set_pose`], or a failing device.
     pub fn set_pose(&mut self, scene: &Scene) -> Result<(), RenderError> {
-        self.model.set_pose(scene)?;
-        match self.frames.pose(&self.model)? {
+        let moved = self.model.pose(scene)?;
+        match self.frames.pose(&self.model, moved)? {
             true => Ok(()),
             // Other lights need other passes.
             false => {

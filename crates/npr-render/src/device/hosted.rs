@@ -1,7 +1,6 @@
 //! Frames that go on in the memory of another, with depths, as a host program wants them.
 
-use crate::frame_graph::write;
-use crate::frame_renderer::{FramePlan, FrameRenderer, Needs};
+use crate::frame_renderer::{FramePlan, FrameRenderer};
 use crate::look::StyledModel;
 use crate::model::Model;
 use crate::options::RendererOptions;
@@ -48,25 +47,5 @@ impl<S: Session> FrameRenderer<S> {
         self.plan = plan;
         self.before = None;
         self.upload(model)
-    }
-
-    /// Takes over the pose of the model; false where other lights, or smoke under them, need another plan.
-    pub fn pose(&mut self, model: &Model) -> Result<bool, EngineError> {
-        let FramePlan {
-            style,
-            options,
-            needs,
-            passes,
-            ..
-        } = &mut self.plan;
-        let lights = Needs::relit(model, style, options);
-        let are_alike = lights.is_one_sun() == needs.lights.is_one_sun()
-            && lights.shadow_count() == needs.lights.shadow_count();
-        if !are_alike || passes.smoke.is_some() {
-            return Ok(false);
-        }
-        needs.lights = lights;
-        write(&mut self.session, passes.frame.palette, &model.palette)?;
-        Ok(true)
     }
 }

@@ -343,6 +343,11 @@ impl SmokePasses {
         [passes.colors, passes.depths, passes.light_depths]
     }
 
+    /// Lights the smoke by others, of which as many shine and throw shadows.
+    pub fn relight(&mut self, chosen: ChosenLights) {
+        self.chosen = chosen;
+    }
+
     /// Refuses smoke of more spheres than were planned.
     pub fn check(passes: Option<&Self>, smoke: &Smoke) -> Result<(), RenderError> {
         let limit = passes.map_or(0, |passes| passes.most);

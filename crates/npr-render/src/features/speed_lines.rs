@@ -38,8 +38,7 @@ const COVER_ROOM: f32 = 0.01;
 const SPACING_PX_MIN: f32 = 1.5;
 
 /// The speed lines of a style.
-pub(crate) struct SpeedLines<'a> {
-    model: &'a Model,
+pub(crate) struct SpeedLines {
     /// The parts as the style draws them, which tells the sides that are seen.
     parts: Vec<Part>,
     /// Which mover each part belongs to.
@@ -71,10 +70,10 @@ struct Sweep {
     spacing_px: f32,
 }
 
-impl<'a> SpeedLines<'a> {
+impl SpeedLines {
     /// The speed lines that a style asks for; none where nothing moves.
     pub fn needs(
-        model: &'a Model,
+        model: &Model,
         style: &Style,
         options: &RendererOptions,
         budget: &mut Budget,
@@ -100,19 +99,25 @@ impl<'a> SpeedLines<'a> {
             movers: movers.collect(),
             parts: model.parts.iter().map(|info| part(info, style)).collect(),
             mover_of_part,
-            model,
             motion: style.motion.clone(),
             size: options.size,
             dpi: options.dpi,
         }))
     }
 
+    /// Lets the lines go out from where the parts are in another pose. O(triangles x trails).
+    pub fn follow(&mut self, model: &Model) {
+        for (index, mover) in self.movers.iter_mut().enumerate() {
+            *mover = Mover::new(model, &self.mover_of_part, index, mover.trail.to_array());
+        }
+    }
+
     /// Draws the speed lines over a frame, behind what stands before their part. O(triangles + pixels * trails).
-    pub fn finish(&self, view: &View, frame: &mut Frame) {
+    pub fn finish(&self, model: &Model, view: &View, frame: &mut Frame) {
         // See which mover every pixel shows, and how deep.
-        let Surfaces { ids, depths } = Surfaces::new(self.model, &self.parts, view, self.size);
+        let Surfaces { ids, depths } = Surfaces::new(model, &self.parts, view, self.size);
         let mover_of = |id: &u32| {
-            let triangle = self.model.triangles.get(triangle_of(*id) as usize)?;
+            let triangle = model.triangles.get(triangle_of(*id) as usize)?;
             self.mover_of_part[triangle.part as usize]
         };
         let movers: Vec<Option<usize>> = ids.iter().map(mover_of).collect();

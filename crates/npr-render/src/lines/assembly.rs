@@ -164,7 +164,7 @@ impl Assembly {
 
     /// Number of stored vertices.
     pub fn vertex_count(&self) -> usize {
-        self.meshes.iter().map(|mesh| mesh.world.len()).sum()
+        self.meshes.iter().map(Placed::vertex_count).sum()
     }
 
     /// The surfaces that faces belong to, as shapes list them.
@@ -225,14 +225,29 @@ impl Placed {
         })
     }
 
+    /// Number of stored vertices.
+    pub fn vertex_count(&self) -> usize {
+        self.world.len()
+    }
+
     fn used_points(&self) -> impl Iterator<Item = [f32; 3]> + '_ {
+        self.used()
+            .into_iter()
+            .map(|vertex| self.world[vertex as usize])
+    }
+
+    /// The stored vertices that triangles and polylines use, in ascending order.
+    pub fn used(&self) -> Vec<u32> {
         let mut used = vec![false; self.world.len()];
         let corners = self.triangles.iter().chain(&self.glowing).flatten();
         for corner in corners.chain(self.polylines.iter().flatten()) {
             used[*corner as usize] = true;
         }
-        let points = self.world.iter().zip(used);
-        points.filter(|(_, used)| *used).map(|(point, _)| *point)
+        let vertices = (0u32..).zip(used);
+        vertices
+            .filter(|(_, used)| *used)
+            .map(|(vertex, _)| vertex)
+            .collect()
     }
 }
 

@@ -8,11 +8,16 @@ use npr_vector::mesh_lines::contour::{EdgeContours, Eye};
 use npr_vector::pixel_strokes::stroke::Loops;
 use npr_vector::pixel_strokes::{PixelScene, PublishedPath, Traced, scene_depths, trace};
 
-/// Finds the lines of a shape. `meanwhile` is what the processor can do while a device finds them, and is called once;
-/// where there is no device it is left to whoever needs it.
+/// Finds the lines of a shape, the same one in every view, in whatever pose. `meanwhile` is what the processor can do
+/// while a device finds them, and is called once; where there is no device it is left to whoever needs it.
 pub(crate) trait Finder {
     /// Contours along mesh edges.
-    fn contours(&mut self, eye: &Eye, meanwhile: &dyn Fn()) -> Result<EdgeContours, RenderError>;
+    fn contours(
+        &mut self,
+        shape: &HalfEdgeMesh,
+        eye: &Eye,
+        meanwhile: &dyn Fn(),
+    ) -> Result<EdgeContours, RenderError>;
 
     /// All lines, found on a picture of them. `occluder_depths` are the reversed depths of what stands before the
     /// shape's own surfaces, where there is any.
@@ -24,6 +29,9 @@ pub(crate) trait Finder {
         meanwhile: &dyn Fn(),
     ) -> Result<(Traced, Loops), RenderError>;
 
+    /// Finds lines of another pose of the shape from the next view on.
+    fn follow(&mut self) {}
+
     /// Forgets the times of the last view.
     fn start_view(&mut self) {}
 
@@ -34,11 +42,16 @@ pub(crate) trait Finder {
 }
 
 /// Finds lines by the plain functions, on the processor.
-pub(crate) struct OnProcessor<'a>(pub(crate) &'a HalfEdgeMesh);
+pub(crate) struct OnProcessor;
 
-impl Finder for OnProcessor<'_> {
-    fn contours(&mut self, eye: &Eye, _: &dyn Fn()) -> Result<EdgeContours, RenderError> {
-        Ok(EdgeContours::new(self.0, eye))
+impl Finder for OnProcessor {
+    fn contours(
+        &mut self,
+        shape: &HalfEdgeMesh,
+        eye: &Eye,
+        _: &dyn Fn(),
+    ) -> Result<EdgeContours, RenderError> {
+        Ok(EdgeContours::new(shape, eye))
     }
 
     fn pixels(
@@ -61,7 +74,10 @@ impl Finder for OnProcessor<'_> {
 /// Finds lines by passes on a device, which keeps the shape from view to view.
 pub(crate) struct OnDevice<'a> {
     engine: &'a dyn Engine,
+    /// The shape in the pose that it was given in.
     shape: &'a HalfEdgeMesh,
+    /// Whether contours, and pixels, are still to be told of another pose.
+    is_behind: [bool; 2],
     contours: Option<ResidentShape<'a>>,
     pixels: Option<ResidentPixels<'a>>,
     times: Vec<PassTime>,
@@ -73,6 +89,7 @@ impl<'a> OnDevice<'a> {
         Self {
             engine,
             shape,
+            is_behind: [false; 2],
             contours: None,
             pixels: None,
             times: Vec::new(),
@@ -81,16 +98,24 @@ impl<'a> OnDevice<'a> {
 }
 
 impl Finder for OnDevice<'_> {
-    fn contours(&mut self, eye: &Eye, meanwhile: &dyn Fn()) -> Result<EdgeContours, RenderError> {
+    fn contours(
+        &mut self,
+        shape: &HalfEdgeMesh,
+        eye: &Eye,
+        meanwhile: &dyn Fn(),
+    ) -> Result<EdgeContours, RenderError> {
         // A scene without surfaces, smoke alone, asks nothing of the device.
-        if self.shape.faces.is_empty() {
-            return OnProcessor(self.shape).contours(eye, meanwhile);
+        if shape.faces.is_empty() {
+            return OnProcessor.contours(shape, eye, meanwhile);
         }
         let resident = match self.contours.take() {
             Some(resident) => resident,
             None => ResidentShape::new(self.engine, self.shape)?,
         };
         let resident = self.contours.insert(resident);
+        if std::mem::take(&mut self.is_behind[0]) {
+            resident.set_pose(shape)?;
+        }
         let found = resident.contours_while(eye, meanwhile)?;
         self.times.extend_from_slice(resident.times());
         Ok(found)
@@ -105,10 +130,17 @@ impl Finder for OnDevice<'_> {
     ) -> Result<(Traced, Loops), RenderError> {
         let make = || ResidentPixels::new(self.engine, self.shape);
         let resident = self.pixels.get_or_insert_with(make);
+        if std::mem::take(&mut self.is_behind[1]) {
+            resident.set_pose(on.shape)?;
+        }
         let hiders = occluder_depths.map_or(Hiders::Surfaces, Hiders::Veiled);
         let found = resident.draw_while(on, path, hiders, meanwhile)?;
         self.times.extend_from_slice(resident.times());
         Ok(found)
+    }
+
+    fn follow(&mut self) {
+        self.is_behind = [true; 2];
     }
 
     fn start_view(&mut self) {

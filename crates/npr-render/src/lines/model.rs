@@ -11,7 +11,7 @@ use super::smoke::SmokeView;
 use super::stroke_contrast::StrokeContrast;
 use super::texture_map::TextureMap;
 use super::view::LineView;
-use super::welded::{build, check_budget, colors_of, mark_materials, notices_of};
+use super::welded::{Built, Posables, build, check_budget, colors_of, mark_materials, notices_of};
 use super::widths::{ShapeBends, WidthInput, Widths};
 use super::{colors, image, paint, pixels, smoke, widths};
 use crate::brushes::Brushes;
@@ -35,7 +35,6 @@ use npr_core::texture::TextureStore;
 use npr_drawing::artwork::StrokeBrushes;
 use npr_drawing::pressure::Pressure;
 use npr_mesh::half_edge::HalfEdgeMesh;
-use npr_mesh::shape::Preparation;
 use npr_scene::Scene;
 use npr_stylesheet::{DepthSpace, Look, Style};
 use npr_vector::mesh_lines::bvh::FaceTree;
@@ -71,30 +70,34 @@ pub struct LineModel {
     pub(super) parts: Vec<PartInfo>,
     /// Colour of every vertex of the shape; empty where the scene has no colours.
     pub(super) colors: Vec<u32>,
-    points: Vec<[f32; 3]>,
-    bounds: Bounds,
-    cameras: Vec<(String, Camera)>,
+    pub(super) points: Vec<[f32; 3]>,
+    pub(super) bounds: Bounds,
+    /// The radius of the sphere around the bounds of the first pose, once there is another.
+    pub(super) first_radius: Option<f32>,
+    /// What other poses need of the meshes.
+    pub(super) posables: Posables,
+    pub(super) cameras: Vec<(String, Camera)>,
     /// The lights of the file, for smoke.
-    lights: Vec<FileLight>,
-    smoke: Option<Smoke>,
+    pub(super) lights: Vec<FileLight>,
+    pub(super) smoke: Option<Smoke>,
     pub(super) notices: Vec<String>,
-    triangle_count: usize,
+    pub(super) triangle_count: usize,
     /// Most bytes that a drawing may take.
     pub(super) memory_limit: u64,
     /// Where what is costly to prepare is kept.
-    cache: Cache,
+    pub(super) cache: Cache,
     /// What was prepared last, for views to come.
-    prepared: Mutex<Option<(PreparedKey, Arc<Prepared>)>>,
-    bends: OnceLock<ShapeBends>,
+    pub(super) prepared: Mutex<Option<(PreparedKey, Arc<Prepared>)>>,
+    pub(super) bends: OnceLock<ShapeBends>,
     /// Where textures lie, for lines that take their colour from there.
     pub(super) map: Option<TextureMap>,
     /// Pictures of styles, by name.
-    pictures: BTreeMap<String, Picture>,
+    pub(super) pictures: BTreeMap<String, Picture>,
 }
 
 /// What lines are prepared for: the cosines of the crease angles and the width of roundings, as bits, what these lie
 /// between, and whether intersections are wanted.
-type PreparedKey = ([u32; 4], CreaseFrom, bool);
+pub(super) type PreparedKey = ([u32; 4], CreaseFrom, bool);
 
 /// What a drawing is made of besides contours.
 struct Wanted<'a> {
@@ -145,6 +148,7 @@ impl LineModel {
             model.map = Some(map);
         }
         model.draw_cards(style)?;
+        model.note_card_offsets();
         Ok(model)
     }
 
@@ -176,8 +180,12 @@ impl LineModel {
         Self::of_assembly(scene, &Assembly::new(scene, None), options, Some(folder))
     }
 
-    fn of_shape(scene: &Scene, assembly: &Assembly, built: (HalfEdgeMesh, Preparation)) -> Self {
-        let (mut shape, preparation) = built;
+    fn of_shape(scene: &Scene, assembly: &Assembly, built: Built) -> Self {
+        let Built {
+            mut shape,
+            preparation,
+            posables,
+        } = built;
         mark_materials(&mut shape, &assembly.marked);
         let points = assembly.used_points();
         let bounds = npr_core::camera::bounds_of(points.iter().copied().map(Vec3::from));
@@ -185,6 +193,8 @@ impl LineModel {
             parts: assembly.parts.clone(),
             colors: colors_of(&shape, assembly),
             bounds,
+            first_radius: None,
+            posables,
             lights: file_light::of_scene(scene, bounds),
             smoke: None,
             points,
@@ -234,7 +244,7 @@ impl LineModel {
     ) -> Result<Drawing, RenderError> {
         // Within the threads that share the work, so that each step does not wait for one of them to wake.
         rayon::scope(|_| {
-            let find = &mut OnProcessor(&self.shape);
+            let find = &mut OnProcessor;
             self.draw_with(camera, style, options, behind, find)
         })
     }
@@ -353,7 +363,7 @@ impl LineModel {
         } else {
             // Errors come again when it is asked for.
             let meanwhile = || drop(prepared.get());
-            find.contours(&eye_of(&self.shape, &projector), &meanwhile)?
+            find.contours(&self.shape, &eye_of(&self.shape, &projector), &meanwhile)?
         };
         let smoke_layer = match smoke {
             Some(smoke) => Some(self.smoke_view(wanted, smoke, &projector, bounds)?),
@@ -589,7 +599,7 @@ impl LineModel {
 
     /// What does not depend on the camera, made anew only where the crease angle or the wish for intersections changes.
     pub(super) fn prepared(&self, options: &LineOptions) -> Result<Arc<Prepared>, RenderError> {
-        let creases = options.creases(placement::radius_of(self.bounds));
+        let creases = options.creases(self.radius());
         let is_on_mesh = !options.method.is_of_pixels();
         let with_crossings = is_on_mesh && options.kinds.has(Kind::Intersection);
         let lengths = [
@@ -644,9 +654,11 @@ impl LineModel {
 
     placement::accessors!();
 
-    /// Radius of the sphere around the bounds, in the world; at least a tiny number.
+    /// Radius of the sphere around the bounds, in the world; at least a tiny number. Other poses than the first one
+    /// leave it as it is, so that what a style measures in radii does not pulse.
     pub fn radius(&self) -> f32 {
-        placement::radius_of(self.bounds)
+        self.first_radius
+            .unwrap_or_else(|| placement::radius_of(self.bounds))
     }
 
     /// Number of triangles, counted for every instance, as the file has them.
@@ -665,6 +677,21 @@ impl LineModel {
             .flat_map(Smoke::reach)
             .map(|point| point.to_array());
         Camera::framing_points(self.points.iter().copied().chain(smoke), aspect, fov_y)
+    }
+
+    /// A view from three quarters above that all of it stays within while the camera turns about an axis through
+    /// `pivot`. `fov_y` is in radians. O(points).
+    pub fn framing_around(
+        &self,
+        [pivot, axis]: [[f32; 3]; 2],
+        (aspect, fov_y): (f32, f32),
+    ) -> Camera {
+        let smoke = self.smoke.iter().flat_map(Smoke::reach);
+        let points: Vec<Vec3> = (self.points.iter().copied().map(Vec3::from))
+            .chain(smoke)
+            .collect();
+        let swept = npr_core::camera::swept(points.iter().copied(), pivot, axis);
+        Camera::framing_points(swept.into_iter(), aspect, fov_y)
     }
 }
 

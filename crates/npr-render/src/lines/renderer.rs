@@ -5,16 +5,26 @@ use super::model::LineModel;
 use super::options::LineOptions;
 use crate::error::RenderError;
 use crate::frame::Frame;
+use crate::model::Model;
 use crate::options::Picture;
 use npr_core::camera::Camera;
 use npr_gpu::engine::{Engine, PassTime};
+use npr_scene::Scene;
 use npr_stylesheet::Style;
 use npr_vector::stroke::Drawing;
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 /// Draws the scene without lines, as a camera sees it, in a style and the size of a line drawing.
 pub(crate) type DrawBehind<'a> =
-    dyn Fn(&Camera, &Style, &LineOptions) -> Result<Frame, RenderError> + 'a;
+    dyn Fn(&Model, &Camera, &Style, &LineOptions) -> Result<Frame, RenderError> + 'a;
+
+/// What lies behind lines.
+pub(crate) struct Behind<'a> {
+    /// The scene, in the pose of the lines.
+    pub model: Cow<'a, Model>,
+    pub draw: Box<DrawBehind<'a>>,
+}
 
 /// A line model on an engine: a device finds the lines that it has passes for, the processor all others.
 ///
@@ -28,9 +38,12 @@ pub(crate) type DrawBehind<'a> =
 /// rounding; and colours that mind a backdrop may differ as far as pictures do.
 pub struct LineRenderer<'a> {
     pub(crate) engine: &'a dyn Engine,
-    pub(crate) model: &'a LineModel,
-    /// Draws what lies behind lines, where their colours follow it.
-    pub(crate) behind: Option<Box<DrawBehind<'a>>>,
+    /// The model as it was given.
+    pub(crate) given: &'a LineModel,
+    /// The model in another pose, once there is one.
+    posed: Option<Box<LineModel>>,
+    /// What lies behind lines, where their colours follow it.
+    pub(crate) behind: Option<Behind<'a>>,
     /// The passes of a device, or the plain functions for an engine that runs these in their place.
     finder: Box<dyn Finder + 'a>,
 }
@@ -41,18 +54,43 @@ impl<'a> LineRenderer<'a> {
         let shape = model.shape();
         Self {
             engine,
-            model,
+            given: model,
+            posed: None,
             behind: None,
             finder: match engine.runs_twins() {
-                true => Box::new(OnProcessor(shape)),
+                true => Box::new(OnProcessor),
                 false => Box::new(OnDevice::new(engine, shape)),
             },
         }
     }
 
-    /// Another one of the same model on the same engine.
+    /// Another one of the same model, as it was given, on the same engine.
     pub(crate) fn another(&self) -> Self {
-        Self::new(self.engine, self.model)
+        Self::new(self.engine, self.given)
+    }
+
+    /// The model that is drawn.
+    pub(crate) fn model(&self) -> &LineModel {
+        self.posed.as_deref().unwrap_or(self.given)
+    }
+
+    /// Draws the pose of a scene from now on, as [`LineModel::set_pose`] takes it; the model that was given stays as
+    /// it is. With the first pose the model is copied, with every further one a device is handed positions, and the
+    /// rest only where it differs.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`LineModel::set_pose`], and of [`Model::set_pose`] for what lies behind.
+    pub fn set_pose(&mut self, scene: &Scene) -> Result<(), RenderError> {
+        let posed = self
+            .posed
+            .get_or_insert_with(|| Box::new(self.given.to_pose()));
+        posed.set_pose(scene)?;
+        self.finder.follow();
+        match &mut self.behind {
+            Some(behind) => behind.model.to_mut().set_pose(scene),
+            None => Ok(()),
+        }
     }
 
     /// The lines that a camera sees; see [`LineModel::draw`].
@@ -68,13 +106,15 @@ impl<'a> LineRenderer<'a> {
         options: &LineOptions,
     ) -> Result<Drawing, RenderError> {
         let behind = match &self.behind {
-            Some(draw) if style.contrasts_with_background() => Some(draw(camera, style, options)?),
+            Some(Behind { model, draw }) if style.contrasts_with_background() => {
+                Some(draw(model, camera, style, options)?)
+            }
             _ => None,
         };
         self.finder.start_view();
+        let model = self.posed.as_deref().unwrap_or(self.given);
         let find = self.finder.as_mut();
-        self.model
-            .draw_with(camera, style, options, behind.as_ref(), find)
+        model.draw_with(camera, style, options, behind.as_ref(), find)
     }
 
     /// The lines of the parts whose style asks for curves that are found as `options` says; smoke hides none of them.
@@ -87,9 +127,9 @@ impl<'a> LineRenderer<'a> {
         pictures: &BTreeMap<String, Picture>,
     ) -> Result<Drawing, RenderError> {
         self.finder.start_view();
+        let model = self.posed.as_deref().unwrap_or(self.given);
         let find = self.finder.as_mut();
-        self.model
-            .draw_curves(camera, style, (options, is_open), pictures, find)
+        model.draw_curves(camera, style, (options, is_open), pictures, find)
     }
 
     /// How long each pass of the last view took; none on the processor.

@@ -10,7 +10,7 @@ use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_scene::{Mesh, Scene};
 
 /// The textures of a scene, and texture coordinates at the corners of a shape's faces.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct TextureMap {
     /// All textures.
     pub textures: TextureStore,

@@ -7,17 +7,17 @@ use crate::part_info::PartInfo;
 use npr_core::budget::Budget;
 use npr_core::edge_flags::EdgeFlags;
 use npr_mesh::half_edge::HalfEdgeMesh;
-use npr_mesh::shape::{Preparation, add_mesh};
+use npr_mesh::shape::{PosableMesh, Preparation, add_posable_mesh};
 use npr_scene::Scene;
 
 /// Bytes of a shape and its hierarchy for every triangle, its three half-edges and its share of the vertices.
-const BYTES_PER_TRIANGLE: usize = 260;
+const BYTES_PER_TRIANGLE: usize = 272;
 
 /// Bytes of a line segment: with its links in a shape, and with its visible parts in a view.
 pub(super) const BYTES_PER_POLYLINE: usize = 320;
 
-/// Bytes of a stored vertex: where it rests, where it stands, and its place in the shape.
-const BYTES_PER_VERTEX: usize = 48;
+/// Bytes of a stored vertex: where it rests, where it stands, its place in the shape, and its number for poses.
+const BYTES_PER_VERTEX: usize = 56;
 
 /// Refuses scenes that memory or the numbers of half-edges have no room for.
 pub(super) fn check_budget(
@@ -41,20 +41,46 @@ pub(super) fn check_budget(
     Ok(())
 }
 
-/// The welded shape of an assembly, and what became of its meshes.
-pub(super) fn build(
-    assembly: &Assembly,
-    options: &LineModelOptions,
-) -> (HalfEdgeMesh, Preparation) {
+/// What a line model keeps of its meshes, so that they can take other poses.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Posables {
+    /// The meshes, in the order of the nodes that they are drawn at.
+    pub meshes: Vec<PosableMesh>,
+    /// Of every mesh: the stored vertices that triangles and lines use, which views frame.
+    pub used: Vec<Vec<u32>>,
+    /// Of every mesh: how many vertices are stored.
+    pub vertex_counts: Vec<usize>,
+    /// Of every point of a card's line: how far it lies from the vertex that it has its colour of.
+    pub card_offsets: Vec<[f32; 3]>,
+}
+
+/// The welded shape of an assembly, what became of its meshes, and what other poses need of them.
+pub(super) struct Built {
+    pub shape: HalfEdgeMesh,
+    pub preparation: Preparation,
+    pub posables: Posables,
+}
+
+/// Welds an assembly to a shape.
+pub(super) fn build(assembly: &Assembly, options: &LineModelOptions) -> Built {
     let mut shape = HalfEdgeMesh {
         surfaces: assembly.surfaces(),
         ..HalfEdgeMesh::default()
     };
     let mut preparation = Preparation::default();
+    let mut posables = Posables::default();
     for mesh in &assembly.meshes {
-        preparation += add_mesh(&mut shape, &mesh.view(), options.weld);
+        let (added, posable) = add_posable_mesh(&mut shape, &mesh.view(), options.weld);
+        preparation += added;
+        posables.meshes.push(posable);
+        posables.used.push(mesh.used());
+        posables.vertex_counts.push(mesh.vertex_count());
     }
-    (shape, preparation)
+    Built {
+        shape,
+        preparation,
+        posables,
+    }
 }
 
 /// Marks the edges where a material that asks for lines meets another.

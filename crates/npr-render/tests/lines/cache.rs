@@ -104,7 +104,7 @@ fn frames_keep_bends_and_the_charts_of_their_hatching() {
     let fresh = frame(None);
     assert!(frame(Some(folder.path())) == fresh);
     let files = files_in(folder.path());
-    assert_eq!(files.len(), 2, "bends and charts");
+    assert_eq!(files.len(), 3, "bends, calm normals and charts");
     assert!(frame(Some(folder.path())) == fresh);
     assert_eq!(files_in(folder.path()), files);
 }

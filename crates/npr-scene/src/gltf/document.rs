@@ -16,6 +16,9 @@ use super::error::GltfError;
 use crate::error::SceneError;
 use crate::limits::{self, Limits};
 
+/// The node of a channel that names none.
+pub(crate) const NO_NODE: u32 = u32::MAX;
+
 /// Extensions that a file may require; what they change is either read or harmless to ignore.
 const SUPPORTED: [&str; 9] = [
     "KHR_lights_punctual",
@@ -55,6 +58,19 @@ pub(crate) fn parse(json: &[u8], limits: &Limits) -> Result<Root, SceneError> {
     Ok(root)
 }
 
+/// The document in `json`, which [`parse`] found broken, without its animations; none where that mends nothing.
+pub(crate) fn parse_without_animations(json: &[u8]) -> Option<Root> {
+    let parsed = guard(|| {
+        let mut document: Value = serde_json::from_slice(trim(json)).ok()?;
+        document.as_object_mut()?.remove("animations")?;
+        serde_json::from_value(with_scene_nodes(document)).ok()
+    });
+    let root = parsed.ok().flatten()?;
+    check_version(&root).ok()?;
+    check_extensions(&root).ok()?;
+    Some(root)
+}
+
 /// `json` without a byte order mark and without the padding of a chunk.
 fn trim(json: &[u8]) -> &[u8] {
     let json = json.strip_prefix(b"\xef\xbb\xbf").unwrap_or(json);
@@ -64,14 +80,15 @@ fn trim(json: &[u8]) -> &[u8] {
 fn parse_types(json: &[u8]) -> Result<Root, GltfError> {
     let parsed = guard(|| {
         serde_json::from_slice(json).or_else(|fault| {
-            // An empty scene may leave out its list of nodes, which the types insist on.
+            // An empty scene may leave out its list of nodes, and a channel its node, which the types insist on.
             let Ok(document) = serde_json::from_slice(json) else {
                 return Err(json_fault(&fault));
             };
             if let Some(version) = first_version(&document) {
                 return Err(GltfError::Version { version });
             }
-            serde_json::from_value(with_scene_nodes(document)).map_err(|_| json_fault(&fault))
+            let document = with_target_nodes(with_scene_nodes(document));
+            serde_json::from_value(document).map_err(|_| json_fault(&fault))
         })
     });
     parsed.unwrap_or(Err(GltfError::Unreadable))
@@ -104,6 +121,22 @@ fn with_scene_nodes(mut document: Value) -> Value {
             .entry("nodes")
             .or_insert_with(|| Value::Array(Vec::new()));
     }
+    document
+}
+
+/// Lets channels without a node move [`NO_NODE`].
+fn with_target_nodes(mut document: Value) -> Value {
+    let animations = document.get_mut("animations").and_then(Value::as_array_mut);
+    let lists = animations
+        .into_iter()
+        .flatten()
+        .filter_map(|animation| animation.get_mut("channels").and_then(Value::as_array_mut));
+    let targets = lists
+        .flatten()
+        .filter_map(|channel| channel.get_mut("target").and_then(Value::as_object_mut));
+    targets.for_each(|target| {
+        target.entry("node").or_insert_with(|| Value::from(NO_NODE));
+    });
     document
 }
 

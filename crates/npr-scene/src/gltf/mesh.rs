@@ -10,6 +10,7 @@
 use ::gltf::json::{Index, scene};
 
 use super::accessor::Accessors;
+use super::clip;
 use super::error::{GltfError, Item};
 use super::primitive::{self, PrimitiveLocation};
 use super::tree::Tree;
@@ -19,8 +20,9 @@ use crate::mesh::Mesh;
 use crate::pool::Pool;
 use crate::scene::Scene;
 
-/// A mesh of the file and the bits of the weights that a node sets for it, if it does.
-type Key = (usize, Option<Vec<u32>>);
+/// A mesh of the file, the bits of the weights that a node sets for it, if it does, and the node whose weights a clip
+/// moves, if one does.
+type Key = (usize, Option<Vec<u32>>, Option<usize>);
 
 /// Reads the meshes that kept nodes use.
 ///
@@ -33,7 +35,12 @@ pub(crate) fn read(
     scene: &mut Scene,
     loading: &mut Loading,
 ) -> Result<(), SceneError> {
-    // Read each mesh once for every set of morph weights that nodes give it.
+    // Read each mesh once for every set of morph weights that nodes give it, and for every node that clips give others.
+    let weighted = clip::weighted_nodes(&scene.clips);
+    let is_weighted = |index: usize| {
+        tree.place(index)
+            .is_some_and(|node| weighted.contains(&node))
+    };
     let mut meshes: Pool<Key, Mesh> = Pool::default();
     for (node_index, source, node) in tree.nodes_with_source(accessors.root, scene) {
         let Some(index) = source.mesh.as_ref().map(Index::value) else {
@@ -42,7 +49,8 @@ pub(crate) fn read(
         let weights = weights(accessors, node_index, index, source)?;
         let own_weights = source.weights.as_ref();
         let bits = own_weights.map(|list| list.iter().map(|weight| weight.to_bits()).collect());
-        node.mesh = meshes.place((index, bits), || {
+        let own = Some(node_index).filter(|index| is_weighted(*index));
+        node.mesh = meshes.place((index, bits, own), || {
             read_mesh(accessors, index, weights, loading).map(Some)
         })?;
     }

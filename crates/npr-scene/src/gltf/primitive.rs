@@ -17,7 +17,8 @@ use super::material;
 use super::topology;
 use crate::error::SceneError;
 use crate::loading::Loading;
-use crate::mesh::{Morph, Part};
+use crate::mesh::Part;
+use crate::morph::{Morph, Unmorphed};
 
 /// The attribute that marks vertices for lines, without the underscore before the names of such attributes.
 const MARKS: &str = "NPR_LINE";
@@ -105,12 +106,33 @@ impl Reader<'_, '_, '_> {
             segments: self.segments(place)?,
             material: self.material()?,
             morphs: self.morphs(weights)?,
+            unmorphed: None,
             ids: Vec::new(),
         };
 
         // Bend the vertices by the morphs that the file applies.
-        apply_morphs(&mut part);
+        self.apply_morphs(&mut part)?;
         Ok(part)
+    }
+
+    /// Bends a part that has morphs, and keeps what it was.
+    fn apply_morphs(&mut self, part: &mut Part) -> Result<(), SceneError> {
+        if part.morphs.is_empty() {
+            return Ok(());
+        }
+        let lists = if part.normals.is_some() { 2 } else { 1 };
+        let count = self.vertex_count.saturating_mul(lists);
+        self.loading
+            .allowance
+            .take::<[f32; 3]>("vertex data", count)?;
+        let unmorphed = Unmorphed {
+            positions: std::mem::take(&mut part.positions),
+            normals: part.normals.take(),
+        };
+        let vertices = unmorphed.morphed(&part.morphs, |_, morph| morph.rest_weight);
+        (part.positions, part.normals) = (vertices.positions, vertices.normals);
+        part.unmorphed = Some(Box::new(unmorphed));
+        Ok(())
     }
 
     fn list<const N: usize>(
@@ -302,8 +324,10 @@ impl Reader<'_, '_, '_> {
             index.map(|index| self.floats(index.value())).transpose()
         };
         let (positions, normals) = (offsets(&target.positions)?, offsets(&target.normals)?);
+        let weight = if weight.is_finite() { weight } else { 0.0 };
         Ok(Morph {
-            applied_weight: if weight.is_finite() { weight } else { 0.0 },
+            applied_weight: weight,
+            rest_weight: weight,
             positions,
             normals,
         })
@@ -321,31 +345,4 @@ fn attribute(primitive: &Primitive, semantic: Semantic) -> Option<usize> {
 fn narrow_joints(wide: &[[u32; 4]]) -> Vec<[u16; 4]> {
     let narrow = |joint| u16::try_from(joint).unwrap_or(u16::MAX);
     wide.iter().map(|joints| joints.map(narrow)).collect()
-}
-
-fn apply_morphs(part: &mut Part) {
-    for morph in part
-        .morphs
-        .iter()
-        .filter(|morph| morph.applied_weight != 0.0)
-    {
-        add_scaled(
-            &mut part.positions,
-            morph.positions.as_deref(),
-            morph.applied_weight,
-        );
-        if let Some(normals) = &mut part.normals {
-            add_scaled(normals, morph.normals.as_deref(), morph.applied_weight);
-        }
-    }
-}
-
-fn add_scaled(list: &mut [[f32; 3]], offsets: Option<&[[f32; 3]]>, weight: f32) {
-    for (value, offset) in list
-        .iter_mut()
-        .flatten()
-        .zip(offsets.into_iter().flatten().flatten())
-    {
-        *value += offset * weight;
-    }
 }

@@ -17,6 +17,7 @@ use crate::matrix::{self, Matrix};
 use crate::node::Node;
 use crate::scene::Scene;
 use crate::shown::shown;
+use crate::transform::Transform;
 
 /// Which nodes of the file the scene keeps, in what order.
 pub(crate) struct Tree {
@@ -121,6 +122,7 @@ impl Tree {
             nodes.push(Node {
                 name,
                 parent,
+                rest: rest(source),
                 local: local(source, loading),
                 ..Node::default()
             });
@@ -180,9 +182,17 @@ fn local(node: &scene::Node, loading: &mut Loading) -> Matrix {
         let (columns, _) = matrix.as_chunks::<4>();
         return std::array::from_fn(|i| columns.get(i).copied().unwrap_or_default());
     }
-    let rotation = node.rotation.unwrap_or_default().0;
-    let translation = node.translation.unwrap_or_default();
-    matrix::from_parts(translation, rotation, node.scale.unwrap_or([1.0; 3]))
+    rest(node).unwrap_or_default().matrix()
+}
+
+/// Where a node stands beside its parent, unless it has a matrix.
+fn rest(node: &scene::Node) -> Option<Transform> {
+    let rest = Transform {
+        translation: node.translation.unwrap_or_default(),
+        rotation: node.rotation.unwrap_or_default().0,
+        scale: node.scale.unwrap_or([1.0; 3]),
+    };
+    node.matrix.is_none().then_some(rest)
 }
 
 /// Works out where every node stands in the world, and takes what stands nowhere out of the picture.
@@ -209,6 +219,7 @@ pub(crate) fn place(scene: &mut Scene, loading: &mut Loading) {
             skin: None,
             camera: None,
             light: None,
+            rest: None,
             local: matrix::IDENTITY,
             ..node.clone()
         };

@@ -1,9 +1,11 @@
 //! Files of every format: sound, odd, damaged, and those beside the checkout.
 
+mod clips;
 mod gltf;
 mod lines;
 mod malformed;
 mod models;
 mod mutants;
+mod poses;
 mod text_formats;
 mod tolerated;

@@ -38,7 +38,7 @@ const TRIANGLE_COUNTS: [(&str, usize); 30] = [
     ("formats/spot_control_mesh_quads.obj", 372),
 ];
 
-fn models() -> Option<PathBuf> {
+pub fn models() -> Option<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/assets/models");
     if !folder.is_dir() {
         eprintln!("skipped: the shared models are not beside this checkout");
@@ -47,7 +47,7 @@ fn models() -> Option<PathBuf> {
     Some(folder)
 }
 
-fn loaded(folder: &Path, name: &str) -> Scene {
+pub fn loaded(folder: &Path, name: &str) -> Scene {
     let scene = load(&folder.join(name), &LoadOptions::default());
     let scene = scene.unwrap_or_else(|fault| panic!("{name}: {fault}"));
     scene.sanity_check();
@@ -135,11 +135,13 @@ fn clips_and_skins_are_found() {
     let Some(folder) = models() else { return };
     let fox = loaded(&folder, "fox.glb");
     assert_eq!(fox.skins[0].joints.len(), 24);
-    assert!(
-        fox.notices
-            .iter()
-            .any(|notice| notice.text == "animation is not played yet")
-    );
+    let clips = fox
+        .clips
+        .iter()
+        .map(|clip| (clip.name.as_str(), clip.channels.len()));
+    let wanted = [("Survey", 21), ("Walk", 21), ("Run", 21)];
+    assert_eq!(clips.collect::<Vec<_>>(), wanted);
+    assert_eq!(fox.notices, []);
     let cube = loaded(&folder, "animated_morph_cube.glb");
     assert_eq!(cube.meshes[0].parts[0].morphs.len(), 2);
 }

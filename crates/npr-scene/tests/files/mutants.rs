@@ -1,7 +1,7 @@
 //! Damaged files never panic, and what still loads is sound.
 
-use npr_scene::testing::{Sheet, lines_glb, skinned_glb, skinned_lines_glb, sparse_glb};
-use npr_scene::{Format, Limits, MemoryResources, load_bytes};
+use npr_scene::testing::{Sheet, lines_glb, skinned_glb, skinned_lines_glb, sparse_glb, wing};
+use npr_scene::{Format, Limits, MemoryResources, Pose, load_bytes};
 use proptest::prelude::*;
 
 /// What happens to a few bytes of a file.
@@ -53,7 +53,7 @@ fn survives(mut file: Vec<u8>, format: Format, damages: &[Damage]) {
         memory_bytes: 64 << 20,
         ..Limits::default()
     };
-    if let Ok(scene) = load_bytes(
+    if let Ok(mut scene) = load_bytes(
         "mutant",
         &file,
         Some(format),
@@ -62,6 +62,21 @@ fn survives(mut file: Vec<u8>, format: Format, damages: &[Damage]) {
     ) {
         scene.sanity_check();
         scene.bounds_world();
+
+        // Whatever its clips do, it stands soundly, and rests as it did.
+        let rest = scene.clone();
+        for clip in &rest.clips {
+            for time in [f32::NAN, 0.0, 0.7, clip.duration_s(), f32::INFINITY] {
+                let pose = scene.pose_at(clip, time);
+                let before = scene.nodes.clone();
+                match scene.set_pose(&pose) {
+                    Ok(()) => scene.sanity_check(),
+                    Err(_) => assert!(scene.nodes == before),
+                }
+            }
+        }
+        scene.set_pose(&Pose::default()).expect("the rest pose");
+        assert!(scene.nodes == rest.nodes && scene.bounds_world() == rest.bounds_world());
     }
 }
 
@@ -75,6 +90,7 @@ proptest! {
     fn binary_gltf(damages in prop::collection::vec(damage(), 1..5)) {
         survives(Sheet::new(3).glb(), Format::Glb, &damages);
         survives(skinned_glb(), Format::Glb, &damages);
+        survives(wing(), Format::Glb, &damages);
         survives(sparse_glb(), Format::Glb, &damages);
         survives(skinned_lines_glb(), Format::Glb, &damages);
         survives(drawing(), Format::Glb, &damages);
