@@ -136,3 +136,46 @@ impl Bending {
         is_changed
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::model::Model;
+    use npr_core::crease::CreaseFrom;
+    use npr_scene::testing::limb;
+
+    fn folds(model: &Model, from: CreaseFrom) -> Vec<f32> {
+        let edges = model.edges_by(from);
+        edges.iter().map(|edge| edge.dihedral_cos).collect()
+    }
+
+    fn places(model: &Model) -> Vec<[f32; 3]> {
+        let vertices = model.vertices.iter();
+        vertices.map(|vertex| vertex.position).collect()
+    }
+
+    #[test]
+    fn folds_and_vertices_are_those_of_a_model_made_for_the_pose() {
+        for has_normals in [false, true] {
+            let rest = limb(has_normals);
+            let mut model = Model::new(&rest).expect("a model");
+            for (clip, time) in [(0, 0.5), (1, 0.7), (0, 1.0)] {
+                // Go on to another pose, and make a model of it.
+                let mut scene = rest.clone();
+                let pose = rest.pose_at(&rest.clips[clip], time);
+                scene.set_pose(&pose).expect("in range");
+                let before = folds(&model, CreaseFrom::Faces);
+                let moved = model.pose(&scene).expect("the same scene");
+                assert!(moved.edges && folds(&model, CreaseFrom::Faces) != before);
+
+                // Without normals a model made anew has hard edges of its own, and with them other vertices.
+                let fresh = Model::new(&scene).expect("a model");
+                for from in [CreaseFrom::Faces, CreaseFrom::Normals] {
+                    assert_eq!(folds(&model, from), folds(&fresh, from), "{clip} {time}");
+                }
+                if has_normals {
+                    assert_eq!(places(&model), places(&fresh), "{clip} {time}");
+                }
+            }
+        }
+    }
+}
