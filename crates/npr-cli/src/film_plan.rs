@@ -33,7 +33,8 @@ impl FilmPlan {
     pub fn new(args: &FilmArguments, clip_s: Option<f32>) -> Result<Self, Fault> {
         // Refuse a film in which nothing moves.
         if !args.turntable && args.orbit.is_none() && clip_s.is_none() {
-            let message = "nothing moves: no clip plays; say --turntable or --orbit DEG, or draw a still with npr render";
+            let message = "nothing moves: no clip plays; say --turntable or --orbit DEG, \
+                           or draw a still with npr render";
             return Err(Fault::new(Exit::Usage, message));
         }
 

@@ -12,9 +12,8 @@ pub struct AnimateArguments {
     #[arg(required_unless_present = "dump_style")]
     pub scene: Option<PathBuf>,
     /// Film to write: frames as frame_####.png, .exr, .svg, .pdf or .json, where #### is the frame number; or all in
-    /// one .gif, .apng, .mp4 or .webm, the last two by the program ffmpeg; - writes a single frame to standard output as
-    /// .png [default: the scene's name with _####.png, in
-    /// the current folder].
+    /// one .gif, .apng, .mp4 or .webm, the last two by the program ffmpeg; - writes a single frame as .png to standard
+    /// output [default: the scene's name with _####.png, in the current folder].
     #[arg(short, long, value_name = "OUT")]
     pub output: Option<PathBuf>,
     /// Frames.

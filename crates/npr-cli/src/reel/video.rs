@@ -79,7 +79,8 @@ impl Codec {
 fn cannot_start(error: &std::io::Error) -> Fault {
     let message = match error.kind() {
         ErrorKind::NotFound => {
-            "there is no program ffmpeg, which writes .mp4 and .webm: install it, or write .gif, .apng or frame_####.png"
+            "there is no program ffmpeg, which writes .mp4 and .webm: install it, \
+             or write .gif, .apng or frame_####.png"
                 .to_owned()
         }
         _ => format!("cannot start ffmpeg: {error}"),
