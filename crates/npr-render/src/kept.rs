@@ -1,9 +1,10 @@
 //! What is costly to prepare, kept in files between runs.
 //!
 //! Four things cost most of a start: how surfaces bend, where they cut each other, how strokes of hatching lie on them,
-//! and how far their normals are calmed. Each is a list of numbers computed from an input; it is kept in a file that is named after the content of this
-//! input, so that any change makes it anew. Nothing in a file is trusted: it has to announce its own kind, version, key
-//! and length, its checksum has to fit, and the numbers have to be what the program could have made.
+//! and how far their normals are calmed. Each is a list of numbers computed from an input; it is kept in a file that is
+//! named after the content of this input, so that any change makes it anew. Nothing in a file is trusted: it has to
+//! announce its own kind, version, key and length, its checksum has to fit, and the numbers have to be what the program
+//! could have made.
 //!
 //! A header of 64 bytes, its numbers little-endian, then the rows as this machine has them:
 //!
