@@ -83,7 +83,7 @@ impl<'a> Show<'a> {
     ///
     /// Where the style or the engine fails.
     pub fn new(
-        engine: &dyn Engine,
+        engine: &'a dyn Engine,
         model: &'a Model,
         scenery: Scenery,
         method: &Method,

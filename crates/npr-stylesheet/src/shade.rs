@@ -32,8 +32,8 @@ pub struct Shade {
     #[schemars(range(min = 0.0, max = 0.5))]
     pub softness: f32 = 0.0,
     /// How far normals are averaged before tones are cut, as a share of the scene's radius, 0..0.5; default 0.02. 0
-    /// shows the grain of scans in the edges of tones, 0.1 only large forms. Less where surfaces bend tightly, and never
-    /// over hard edges. The layer of normals has these.
+    /// shows the grain of scans in the edges of tones, 0.1 only large forms. Less where surfaces bend tightly, and
+    /// never over hard edges. The layer of normals has these.
     #[schemars(range(min = 0.0, max = 0.5))]
     pub calm: f32 = 0.02,
     /// Colour of the paper that mode `paper` fills surfaces with; default white.
