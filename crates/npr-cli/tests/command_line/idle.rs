@@ -51,7 +51,8 @@ const DRAWINGS: &[Case] = &[
         Acts,
     ),
     (
-        &["lines", "scene.obj", "-o", "a.svg"],
+        // Without it the folds of the box are creases by both.
+        &["lines", "scene.obj", "-o", "a.svg", "--set", NORMALS_ALONE],
         &["--crease-from", "faces"],
         Acts,
     ),
@@ -348,6 +349,23 @@ const LINES: &[&str] = &[
     "-o",
     "a.svg",
 ];
+
+/// A setting that leaves hard folds to the normals.
+const NORMALS_ALONE: &str = "line.crease_hard_deg=180";
+
+/// The same drawings where the normals alone tell creases.
+const LINES_BY_NORMALS: &[&str] = &[
+    "animate",
+    "scene.obj",
+    "--orbit",
+    "40",
+    "--frames",
+    "0",
+    "-o",
+    "a.svg",
+    "--set",
+    NORMALS_ALONE,
+];
 const PLAYED: &[&str] = &[
     "animate",
     "scene.obj",
@@ -395,7 +413,7 @@ const ANIMATIONS: &[Case] = &[
     (PLAYED, &["--fps", "12"], Acts),
     (LINES, &["--kinds", "contour"], Acts),
     (LINES, &["--crease", "100"], Acts),
-    (LINES, &["--crease-from", "faces"], Acts),
+    (LINES_BY_NORMALS, &["--crease-from", "faces"], Acts),
     (LINES, &["--split", "30"], Acts),
     (LINES, &["--hidden", "dashed"], Acts),
     (LINES, &["--fill"], Acts),

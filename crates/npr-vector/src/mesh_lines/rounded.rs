@@ -13,11 +13,18 @@ use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_mesh::union_find::UnionFind;
 use rayon::prelude::*;
 
-/// Widths of roundings that are looked for, in the widest: a narrow one has flat sides of its own only nearby.
-const WIDTHS: [f64; 3] = [1.0, 0.5, 0.25];
+/// How far from an edge a walk looks around, in the width of the widest rounding. Roundings are looked for by three
+/// widths, each twice as far as one of these and as far as the next: a narrow one has flat sides only nearby.
+const LOOKS: [f64; 4] = [0.125, 0.25, 0.5, 1.0];
 
-/// Fold from which an edge can be the middle of a rounding, in radians: 4 degrees.
-const LEAST_FOLD: f64 = 4.0 / 180.0 * std::f64::consts::PI;
+/// Fold from which an edge can be the middle of a rounding, as a cosine: 4 degrees.
+const LEAST_FOLD_COS: f32 = 0.997_56;
+
+/// Share of the mean bend of the slightest and widest rounding that its middle has at least.
+const BEND_SHARE: f64 = 0.5;
+
+/// Share of the least turn that an edge and one of its sides take at least.
+const SIDE_SHARE: f64 = 0.25;
 
 /// How much of the least turn shading has to show: the rest spreads over flat sides as far as their next vertices.
 const SHADING_SHARE: f64 = 0.75;
@@ -51,17 +58,21 @@ const FIRST: DVec3 = DVec3::new(0.372, 0.839, 0.397);
 ///
 /// O(edges x faces across a rounding), parallel.
 pub fn rounded_edges(shape: &HalfEdgeMesh, normals: &CornerNormals, creases: Creases) -> Vec<u32> {
+    if creases.round <= 0.0 {
+        return Vec::new();
+    }
     let surface = Surface {
         shape,
         normals,
+        face_normals: face_normals(shape),
         creases,
         least_turn: f64::from(creases.cos).clamp(-1.0, 1.0).acos(),
+        width: f64::from(creases.round),
     };
-    let widths = WIDTHS.map(|share| share * f64::from(creases.round));
     let edges = (0..shape.edge_count() as u32)
         .into_par_iter()
         .with_min_len(1024)
-        .filter(|edge| creases.round > 0.0 && surface.is_rounded(*edge, widths))
+        .filter(|edge| surface.is_rounded(*edge))
         .collect();
     in_long_rows(shape, edges, LENGTH_SHARE * f64::from(creases.round))
 }
@@ -96,9 +107,13 @@ fn in_long_rows(shape: &HalfEdgeMesh, edges: Vec<u32>, least: f64) -> Vec<u32> {
 struct Surface<'a> {
     shape: &'a HalfEdgeMesh,
     normals: &'a CornerNormals,
+    /// Unit normal of every face; zero where it has no area.
+    face_normals: Vec<DVec3>,
     creases: Creases,
     /// Angle by which a rounding turns at least.
     least_turn: f64,
+    /// Width of the widest.
+    width: f64,
 }
 
 /// A place on a face, with the direction in which a walk goes on.
@@ -112,50 +127,60 @@ struct Step {
     normal: DVec3,
 }
 
-/// What a walk from the middle of an edge meets on one side.
-struct Walk {
-    /// Angles that the faces turn by about the edge: within half of the width, and within all of it.
-    turns: [f64; 2],
-    /// Shading normals at half of the width, and at all of it.
-    normals: [DVec3; 2],
+/// What a walk from the middle of an edge meets at a distance from it.
+#[derive(Clone, Copy, Default)]
+struct Met {
+    /// Angle that the faces turned by on the way, about the edge.
+    turn: f64,
+    /// Normal that shading has there.
+    normal: DVec3,
 }
 
 impl Surface<'_> {
-    fn is_rounded(&self, edge: u32, widths: [f64; 3]) -> bool {
-        // Take edges that fold a little between two faces.
+    fn is_rounded(&self, edge: u32) -> bool {
+        // Take edges between two faces that fold as much as the middle of a rounding does.
+        if self.shape.dihedral_cos[edge as usize] > LEAST_FOLD_COS || !self.is_passable(edge) {
+            return false;
+        }
         let &[left, right] = self.shape.sides(edge) else {
             return false;
         };
-        if !self.is_passable(edge) {
-            return false;
-        }
-        let [tail, head] = self
-            .shape
-            .ends_of_half_edge(left)
-            .map(|v| self.shape.point(v));
+        let [tail, head] = self.ends(left);
         let axis = (head - tail).normalize_or_zero();
         let fold = turn([right, left].map(|side| self.face_normal(side / 3)), axis);
-        if fold.abs() < LEAST_FOLD {
+        let across = [left, right].map(|side| {
+            let aside = self.shape.point(self.shape.opposite(side)) - tail;
+            (aside - axis * aside.dot(axis)).length()
+        });
+        let bend = fold.abs() / (0.5 * (across[0] + across[1])).min(self.width);
+        if bend < BEND_SHARE * self.least_turn / self.width {
             return false;
         }
 
-        // Look at both sides of it, by each width.
-        widths.into_iter().any(|width| {
-            let [left, right] =
-                [(left, axis), (right, -axis)].map(|(side, axis)| self.walk(side, axis, width));
-            self.turns_round([&left, &right], fold, axis)
-        })
+        // Look at one side of it, and at the other where that has its share of a turn.
+        let one = self.walk(left, axis);
+        let most = one
+            .iter()
+            .map(|met| fold.signum() * met.turn)
+            .fold(0.0, f64::max);
+        if most + fold.abs() < SIDE_SHARE * self.least_turn {
+            return false;
+        }
+        let other = self.walk(right, -axis);
+        one.windows(2)
+            .zip(other.windows(2))
+            .any(|(left, right)| self.turns_round([left, right], fold, axis))
     }
 
-    /// Whether two walks found a rounding with an edge in its middle that folds by `fold`.
-    fn turns_round(&self, walks: [&Walk; 2], fold: f64, axis: DVec3) -> bool {
+    /// Whether there is a rounding with an edge in its middle that folds by `fold`, by what two walks met at half of
+    /// its width and at all of it.
+    fn turns_round(&self, [left, right]: [&[Met]; 2], fold: f64, axis: DVec3) -> bool {
         // Measure the turn within the width: of the faces, and of the shading, about the edge.
         let sign = fold.signum();
-        let sides = walks.map(|walk| sign * walk.turns[0]);
+        let sides = [left, right].map(|met| sign * met[0].turn);
         let fold = fold.abs();
         let faces = sides[0] + fold + sides[1];
-        let [left, right] = walks.map(|walk| walk.normals);
-        let shading = sign * turn([right[0], left[0]], axis);
+        let shading = sign * turn([right[0].normal, left[0].normal], axis);
         let least = self.least_turn;
         if !(faces >= least && shading >= SHADING_SHARE * least)
             || sides.iter().any(|side| *side < -BACK_SHARE * faces)
@@ -164,32 +189,30 @@ impl Surface<'_> {
         }
 
         // See that it turns about the edge, and that its sides are flat.
-        let about = right[0].cross(left[0]).normalize_or_zero();
-        let beside = [left, right].map(|[near, far]| near.angle_between(far));
+        let about = right[0].normal.cross(left[0].normal).normalize_or_zero();
+        let beside = [left, right].map(|met| met[0].normal.angle_between(met[1].normal));
         if about.dot(axis).abs() < ALONG_COS || !beside.iter().all(|b| *b <= BESIDE_SHARE * shading)
         {
             return false;
         }
 
         // See that half of the turn is reached here; of two edges beside the middle face one is taken.
-        let sides = walks.map(|walk| sign * walk.turns[1]);
+        let sides = [left, right].map(|met| sign * met[1].turn);
         let uneven = (sides[0] - sides[1]).abs();
         if (uneven - fold).abs() > 1e-3 * faces {
             return uneven < fold;
         }
         let [outer, inner] = match sides[0] > sides[1] {
-            true => [right[1], left[1]],
-            false => [left[1], right[1]],
+            true => [right[1].normal, left[1].normal],
+            false => [left[1].normal, right[1].normal],
         };
         outer.dot(FIRST) > inner.dot(FIRST)
     }
 
-    /// Walks from the middle of a half-edge straight over the surface, as far as `width`.
-    fn walk(&self, start: u32, axis: DVec3, width: f64) -> Walk {
-        let [tail, head] = self
-            .shape
-            .ends_of_half_edge(start)
-            .map(|v| self.shape.point(v));
+    /// Walks from the middle of a half-edge straight over the surface, and looks around at [`LOOKS`]; where the walk
+    /// ends before, the rest is as there.
+    fn walk(&self, start: u32, axis: DVec3) -> [Met; LOOKS.len()] {
+        let [tail, head] = self.ends(start);
         let normal = self.face_normal(start / 3);
         let mut step = Step {
             side: start,
@@ -197,35 +220,36 @@ impl Surface<'_> {
             ahead: normal.cross((head - tail).normalize_or_zero()),
             normal,
         };
+        let mut met = [Met::default(); LOOKS.len()];
+        let mut looked = 0;
         let mut turned = 0.0;
         let mut walked = 0.0;
-        let mut near = None;
         for _ in 0..WALK_LIMIT {
-            // Cross the face, or stop in it.
+            // Cross the face, and look around in it.
             let Some((out, leave)) = self.exit(&step) else {
                 break;
             };
             let length = leave.distance(step.at);
-            let point_at = |distance: f64| step.at + step.ahead * (distance - walked);
-            if near.is_none() && walked + length >= 0.5 * width {
-                near = Some((self.shading(step.side / 3, point_at(0.5 * width)), turned));
+            while looked < LOOKS.len() && walked + length >= LOOKS[looked] * self.width {
+                let point = step.at + step.ahead * (LOOKS[looked] * self.width - walked);
+                met[looked] = Met {
+                    turn: turned,
+                    normal: self.shading(step.side / 3, point),
+                };
+                looked += 1;
             }
-            if walked + length >= width {
-                let far = self.shading(step.side / 3, point_at(width));
-                return ended(near, (far, turned));
+            walked += length;
+            step.at = leave;
+            if looked == LOOKS.len() {
+                break;
             }
 
             // Turn into the next face, unless the surface ends.
-            walked += length;
-            step.at = leave;
             let next = self.shape.twins[out as usize];
             if next == NONE || !self.is_passable(self.shape.edge_of[out as usize]) {
                 break;
             }
-            let [a, b] = self
-                .shape
-                .ends_of_half_edge(out)
-                .map(|v| self.shape.point(v));
+            let [a, b] = self.ends(out);
             let hinge = (b - a).normalize_or_zero();
             let after = self.face_normal(next / 3);
             turned += turn([step.normal, after], hinge) * hinge.dot(axis);
@@ -238,18 +262,18 @@ impl Surface<'_> {
                 normal: after,
             };
         }
-        let far = self.shading(step.side / 3, step.at);
-        ended(near, (far, turned))
+        met[looked..].fill(Met {
+            turn: turned,
+            normal: self.shading(step.side / 3, step.at),
+        });
+        met
     }
 
     /// The half-edge by which a walk leaves its face, and where.
     fn exit(&self, step: &Step) -> Option<(u32, DVec3)> {
         let first = HalfEdgeMesh::following(step.side);
         let ways = [first, HalfEdgeMesh::following(first)].map(|half_edge| {
-            let [a, b] = self
-                .shape
-                .ends_of_half_edge(half_edge)
-                .map(|v| self.shape.point(v));
+            let [a, b] = self.ends(half_edge);
             let outward = (b - a).cross(step.normal);
             let speed = step.ahead.dot(outward);
             let way = ((a - step.at).dot(outward) / speed).max(0.0);
@@ -274,8 +298,13 @@ impl Surface<'_> {
     }
 
     fn face_normal(&self, face: u32) -> DVec3 {
-        let [a, b, c] = self.shape.faces[face as usize].map(|v| self.shape.point(v));
-        (b - a).cross(c - a).normalize_or_zero()
+        self.face_normals[face as usize]
+    }
+
+    /// Tail and head of a half-edge.
+    fn ends(&self, half_edge: u32) -> [DVec3; 2] {
+        let ends = self.shape.ends_of_half_edge(half_edge);
+        ends.map(|vertex| self.shape.point(vertex))
     }
 
     /// The normal that shading has at a point of a face: blended between its corners.
@@ -294,13 +323,17 @@ impl Surface<'_> {
     }
 }
 
-/// A walk that ended with a normal and a turn, and had others at half of the width, if it came so far.
-fn ended(near: Option<(DVec3, f64)>, far: (DVec3, f64)) -> Walk {
-    let (normal, turn) = near.unwrap_or(far);
-    Walk {
-        turns: [turn, far.1],
-        normals: [normal, far.0],
-    }
+fn face_normals(shape: &HalfEdgeMesh) -> Vec<DVec3> {
+    let normal = |face: &[u32; 3]| {
+        let [a, b, c] = face.map(|vertex| shape.point(vertex));
+        (b - a).cross(c - a).normalize_or_zero()
+    };
+    shape
+        .faces
+        .par_iter()
+        .with_min_len(4096)
+        .map(normal)
+        .collect()
 }
 
 /// Angle from one normal to another, about an axis, in radians.
