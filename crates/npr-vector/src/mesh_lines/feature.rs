@@ -36,15 +36,24 @@ const OPEN_SHARE: f64 = 0.5;
 /// O(edges + features log features).
 pub fn features(shape: &HalfEdgeMesh, creases: impl Into<Creases>) -> CurveGraph {
     let creases = creases.into();
+    let normals = (creases.round > 0.0).then(|| CornerNormals::new(shape, creases));
+    features_by(shape, creases, normals.as_ref())
+}
+
+/// The same, with rounded edges where normals of the same creases are given.
+pub(crate) fn features_by(
+    shape: &HalfEdgeMesh,
+    creases: Creases,
+    normals: Option<&CornerNormals>,
+) -> CurveGraph {
     let mut candidates: Vec<(u32, u32)> = (0..shape.edge_count() as u32)
         .into_par_iter()
         .with_min_len(8192)
         .filter_map(|edge| static_flags(shape, edge, creases).map(|flags| (edge, flags)))
         .collect();
-    if creases.round > 0.0 {
-        let normals = CornerNormals::new(shape, creases);
+    if let Some(normals) = normals {
         let is_feature = |edge: &u32| static_flags(shape, *edge, creases).is_some();
-        let rounded = rounded_edges(shape, &normals, creases);
+        let rounded = rounded_edges(shape, normals, creases);
         let rounded = rounded.into_iter().filter(|edge| !is_feature(edge));
         candidates.extend(rounded.map(|edge| (edge, KindSet::CREASE)));
     }

@@ -1,7 +1,7 @@
 //! What a shape's lines need in every view.
 
 use crate::mesh_lines::bvh::FaceTree;
-use crate::mesh_lines::feature::features;
+use crate::mesh_lines::feature::features_by;
 use crate::mesh_lines::graph::CurveGraph;
 use crate::mesh_lines::intersect::Crossings;
 use crate::mesh_lines::polyline::{polylines, touch};
@@ -78,9 +78,13 @@ impl Prepared {
         find: Option<&FindCrossings<'_>>,
     ) -> Result<Self, OverBudget> {
         // Sort faces for sights, link features, and find intersections where they are wanted.
-        let (tree, (features, fans)) = rayon::join(
+        let (tree, (features, normals, fans)) = rayon::join(
             || FaceTree::new(shape),
-            || (features(shape, creases), fans(shape)),
+            || {
+                let normals = (creases.round > 0.0).then(|| CornerNormals::new(shape, creases));
+                let features = features_by(shape, creases, normals.as_ref());
+                (features, normals, fans(shape))
+            },
         );
         let crossings = match find {
             Some(find) => find(&tree)?,
@@ -112,7 +116,7 @@ impl Prepared {
                 .map(|_| AtomicBool::new(false))
                 .collect(),
             fans,
-            normals: OnceLock::new(),
+            normals: normals.map_or_else(OnceLock::new, OnceLock::from),
         })
     }
 
