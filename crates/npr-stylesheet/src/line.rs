@@ -123,7 +123,7 @@ pub struct Line {
     pub crease_hard_deg: f32 = 75.0,
     /// Width of the widest rounding that is drawn as a crease, as a share of the scene's radius, 0..0.2; default 0.015.
     /// 0 leaves rounded and chamfered edges to the tones, 0.05 draws soft ones too. Only between flat sides. Of method
-    /// `strokes`, and of drawings as curves.
+    /// `strokes` with exact sights, and of drawings as curves.
     #[schemars(range(min = 0.0, max = 0.2))]
     pub crease_round: f32 = 0.015,
     /// Length under which a crease is left out that ends in the open, where no other line meets it; default 48. 0

@@ -314,7 +314,8 @@ impl LineModel {
     }
 
     /// The lines of the parts whose style asks for curves that are found as `options` says; smoke hides none of them.
-    /// Where it `is_open` what is seen of them, all are there.
+    /// Where it `is_open` what is seen of them, all are there, but for those of rounded edges: nothing tells them from a
+    /// contour beside them then.
     pub(crate) fn draw_curves(
         &self,
         camera: &Camera,
@@ -324,10 +325,14 @@ impl LineModel {
         find: &mut dyn Finder,
     ) -> Result<Drawing, RenderError> {
         let is_curve = |look: &Look<'_>| look.line_method.source() == Some(options.method);
+        let folds_alone = LineOptions {
+            crease_round: 0.0,
+            ..*options
+        };
         let wanted = Wanted {
             camera,
             style,
-            options,
+            options: if is_open { &folds_alone } else { options },
             smoke: None,
             pictures,
             behind: None,
