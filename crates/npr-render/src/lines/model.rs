@@ -314,8 +314,8 @@ impl LineModel {
     }
 
     /// The lines of the parts whose style asks for curves that are found as `options` says; smoke hides none of them.
-    /// Where it `is_open` what is seen of them, all are there, but for those of rounded edges: nothing tells them from a
-    /// contour beside them then.
+    /// Where it `is_open` what is seen of them, all are there, but for those of rounded edges: nothing would tell them
+    /// from a contour beside them.
     pub(crate) fn draw_curves(
         &self,
         camera: &Camera,
