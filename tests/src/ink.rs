@@ -26,12 +26,19 @@ impl Ink {
         Self::darker_than(frame, 128)
     }
 
+    /// Pixels of one colour, as sRGB bytes with alpha.
+    pub fn of_color(frame: &Frame, color: &[u8]) -> Self {
+        Self::where_pixels(frame, |pixel| pixel == color)
+    }
+
     fn darker_than(frame: &Frame, byte: u8) -> Self {
-        let pixels = frame.rgba.chunks_exact(4);
-        let dark = pixels.map(|pixel| pixel[1] < byte);
+        Self::where_pixels(frame, |pixel| pixel[1] < byte)
+    }
+
+    fn where_pixels(frame: &Frame, is_inked: impl Fn(&[u8]) -> bool) -> Self {
         Self {
             size: frame.size,
-            dark: dark.collect(),
+            dark: frame.rgba.chunks_exact(4).map(is_inked).collect(),
         }
     }
 

@@ -175,7 +175,7 @@ impl Ring {
 mod tests {
     use super::*;
     use crate::mesh::Mesh;
-    use crate::testing::{icosphere, random_soup, torus};
+    use crate::testing::{Random, icosphere, random_soup, torus};
     use crate::{smooth_normals, weld};
     use proptest::prelude::*;
 
@@ -206,13 +206,8 @@ mod tests {
 
     /// Unit normals turned aside by up to `amount`, each by its own seed.
     fn shaken(normals: &[[f32; 3]], seed: u64, amount: f32) -> Vec<[f32; 3]> {
-        let mut state = seed | 1;
-        let mut next = || {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1);
-            ((state >> 40) as f32 / (1 << 23) as f32 - 1.0) * amount
-        };
+        let mut random = Random::new(seed);
+        let mut next = || (2.0 * random.unit() - 1.0) * amount;
         normals
             .iter()
             .map(|n| {
@@ -284,13 +279,8 @@ mod tests {
     /// A plane about the origin, of triangles of uneven sizes without obtuse angles to speak of.
     fn uneven_plane(seed: u64) -> Mesh {
         const SIDE: u32 = 41;
-        let mut state = seed | 1;
-        let mut next = || {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1);
-            (state >> 40) as f32 / (1 << 24) as f32 - 0.5
-        };
+        let mut random = Random::new(seed);
+        let mut next = || random.unit() - 0.5;
         let step = 2.0 / (SIDE - 1) as f32;
         let positions = (0..SIDE * SIDE)
             .map(|i| {

@@ -5,6 +5,7 @@ use crate::model::Model;
 use glam::Vec3;
 use npr_core::geometry::Vertex;
 use npr_mesh::calm::Shaded;
+use npr_mesh::curvature::tightest;
 
 /// What has to be added to the normal of every vertex, and made unit length, to average it as far as `share` of the
 /// model's radius; kept where there is a folder for it.
@@ -28,14 +29,7 @@ pub(crate) fn calming(model: &Model, share: f32) -> Vec<Vec3> {
     let radius = model.radius();
     let bends: Vec<f32> = vertices
         .iter()
-        .map(|vertex| {
-            vertex
-                .curvatures
-                .map(f32::abs)
-                .into_iter()
-                .fold(0.0, f32::max)
-                / radius
-        })
+        .map(|vertex| tightest(vertex.curvatures) / radius)
         .collect();
     let objects: Vec<u32> = vertices.iter().map(object_of).collect();
     let triangles: Vec<[u32; 3]> = model

@@ -3,12 +3,13 @@
 use super::comic_look::ball;
 use npr_core::color::linear_from_srgb;
 use npr_gpu::processor::Processor;
-use npr_mesh::testing::icosphere;
+use npr_mesh::testing::{Random, icosphere};
 use npr_render::{Frame, Model, Picture, RenderError, Renderer, RendererOptions};
 use npr_scene::Scene;
 use npr_stylesheet::{Stop, Style};
 use npr_tests::comic::{SIZE, direction, draw, front, pixel, style, wall};
-use npr_tests::{Agreement, Object, draw_from, draw_with, scene_of};
+use npr_tests::{Agreement, Ink, Object, draw_from, draw_with, scene_of};
+use std::collections::BTreeSet;
 
 fn options(name: &str, size: [u32; 2], rgba: Vec<u8>) -> RendererOptions {
     RendererOptions {
@@ -152,32 +153,9 @@ fn a_pattern_in_a_rule_takes_the_place_of_the_picture() {
 
 /// Pieces of equal colour that lie together in a picture.
 fn patches(frame: &Frame) -> usize {
-    let [width, height] = frame.size.map(|side| side as usize);
-    let colors: Vec<&[u8]> = frame.rgba.chunks_exact(4).collect();
-    let mut is_seen = vec![false; colors.len()];
-    let mut count = 0;
-    for start in 0..colors.len() {
-        let mut open = Vec::new();
-        if !std::mem::replace(&mut is_seen[start], true) {
-            count += 1;
-            open.push(start);
-        }
-        while let Some(at) = open.pop() {
-            let [x, y] = [at % width, at / width];
-            let beside = [
-                (x > 0).then(|| at - 1),
-                (x + 1 < width).then(|| at + 1),
-                (y > 0).then(|| at - width),
-                (y + 1 < height).then(|| at + width),
-            ];
-            for next in beside.into_iter().flatten() {
-                if colors[next] == colors[at] && !std::mem::replace(&mut is_seen[next], true) {
-                    open.push(next);
-                }
-            }
-        }
-    }
-    count
+    let colors: BTreeSet<&[u8]> = frame.rgba.chunks_exact(4).collect();
+    let pieces = |color: &[u8]| Ink::of_color(frame, color).components().len();
+    colors.into_iter().map(pieces).sum()
 }
 
 #[test]
@@ -185,13 +163,8 @@ fn the_grain_of_a_scan_does_not_show_in_the_edges_of_tones() {
     // A ball whose normals are those of a scan: each a little aside.
     let mut scene = scene_of(&[Object::new("Ball", icosphere(5))]);
     let part = &mut scene.meshes[0].parts[0];
-    let mut state = 20_031_u64;
-    let mut aside = || {
-        state = state
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1);
-        ((state >> 40) as f32 / (1 << 23) as f32 - 1.0) * 0.1
-    };
+    let mut random = Random::new(20_031);
+    let mut aside = || (2.0 * random.unit() - 1.0) * 0.1;
     let normals = part.positions.iter().map(|p| {
         let shaken = glam::Vec3::from(*p) + glam::Vec3::new(aside(), aside(), aside());
         shaken.normalize().to_array()

@@ -3,7 +3,7 @@
 //! They are found and linked once a shape; a view only leaves some of them out ([`kind_in_view`]).
 
 use crate::mesh_lines::graph::{CurveGraph, CurveNode};
-use crate::mesh_lines::rounded::rounded_edges;
+use crate::mesh_lines::rounded::{rounded_edges, rounding_normals};
 use crate::mesh_lines::zero_set::CornerNormals;
 use glam::DVec3;
 use npr_core::crease::{CreaseFrom, Creases};
@@ -36,7 +36,7 @@ const OPEN_SHARE: f64 = 0.5;
 /// O(edges + features log features).
 pub fn features(shape: &HalfEdgeMesh, creases: impl Into<Creases>) -> CurveGraph {
     let creases = creases.into();
-    let normals = (creases.round > 0.0).then(|| CornerNormals::new(shape, creases));
+    let normals = rounding_normals(shape, creases);
     features_by(shape, creases, normals.as_ref())
 }
 

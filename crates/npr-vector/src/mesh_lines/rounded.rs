@@ -47,20 +47,22 @@ const LENGTH_SHARE: f64 = 4.0;
 /// Decides between two edges that share the middle of a rounding: any direction that models are not built along.
 const FIRST: DVec3 = DVec3::new(0.372, 0.839, 0.397);
 
-/// The edges in the middle of narrow roundings, ascending; none where [`Creases::round`] is 0.
+/// The normals that [`rounded_edges`] asks for; none where [`Creases::round`] is 0 and no rounding is a line.
+pub fn rounding_normals(shape: &HalfEdgeMesh, creases: Creases) -> Option<CornerNormals> {
+    (creases.round > 0.0).then(|| CornerNormals::new(shape, creases))
+}
+
+/// The edges in the middle of narrow roundings, ascending.
 ///
 /// A rounding turns by the angle of creases or more within [`Creases::round`] across, in the unit of positions: about
 /// the edge's own direction, never back, and in its shading as well as in its faces. Limbs of coarse figures are no
 /// roundings, as their shading turns all the way from one edge to the next. Beside it the surface is flat, compared
 /// with that, as far again on both sides. Of the edges along it that one is taken at which half of the turn is reached.
 /// Rows of them that are short are left out, and creases are none: they end the walk. `normals` are those of the same
-/// creases.
+/// creases ([`rounding_normals`]).
 ///
 /// O(edges x faces across a rounding), parallel.
 pub fn rounded_edges(shape: &HalfEdgeMesh, normals: &CornerNormals, creases: Creases) -> Vec<u32> {
-    if creases.round <= 0.0 {
-        return Vec::new();
-    }
     let surface = Surface {
         shape,
         normals,

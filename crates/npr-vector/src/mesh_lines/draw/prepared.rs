@@ -5,6 +5,7 @@ use crate::mesh_lines::feature::features_by;
 use crate::mesh_lines::graph::CurveGraph;
 use crate::mesh_lines::intersect::Crossings;
 use crate::mesh_lines::polyline::{polylines, touch};
+use crate::mesh_lines::rounded::rounding_normals;
 use crate::mesh_lines::zero_set::CornerNormals;
 use npr_core::budget::{Budget, OverBudget};
 use npr_core::crease::Creases;
@@ -81,7 +82,7 @@ impl Prepared {
         let (tree, (features, normals, fans)) = rayon::join(
             || FaceTree::new(shape),
             || {
-                let normals = (creases.round > 0.0).then(|| CornerNormals::new(shape, creases));
+                let normals = rounding_normals(shape, creases);
                 let features = features_by(shape, creases, normals.as_ref());
                 (features, normals, fans(shape))
             },
