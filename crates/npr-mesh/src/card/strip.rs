@@ -3,7 +3,8 @@
 //! The border of a strip is one loop: a side there, the tip, a side back, the root. Folded together at root and tip,
 //! its sides come to lie on each other, as near as the strip is wide; folded anywhere else they lie far apart. So the
 //! ends are where the folded sides are nearest, and the line runs half way between places at equal shares of both
-//! sides' lengths. What lies between the sides does not count: a strip may have several columns, and bend across.
+//! sides' lengths. A blunt end, at which the border turns twice, lies half way between its two corners. What lies between
+//! the sides does not count: a strip may have several columns, and bend across.
 
 use super::piece::{Piece, area_within, finished, length_of};
 use crate::card_lines::CardPoint;
@@ -22,9 +23,11 @@ const ROUNDS: u32 = 3;
 /// Most times that one side may be as long as the other. A branch makes its side longer, by twice its length.
 const SIDES_MOST: f64 = 2.0;
 
-/// Share of the way along the border by which the middle must have left an end where the sides begin: before, the
-/// border runs across the end.
-const ON_SIDE: f64 = 0.5;
+/// Cosine of the least angle by which the border turns at a corner of a blunt end: 45 degrees.
+const TURN_COSINE: f64 = 0.707;
+
+/// Share of the way from an end at which the width near that end is measured.
+const NEAR_END: f64 = 0.1;
 
 /// Places of both sides nearer than this are one, as a share of the mean distance of corners.
 const SAME: f64 = 0.25;
@@ -177,7 +180,42 @@ impl Border {
             let roots = roots.map(|from| Ends { from, ..best });
             best = self.nearest(best, roots, |share| (1.0 - share) * (1.0 - share));
         }
-        best
+
+        // Take blunt ends to their middles: one side of a bend is longer, which moves ends aside.
+        let width_at = |share: f64| {
+            let [a, b] = self.pair(best, share);
+            a.distance(b)
+        };
+        Ends {
+            from: self.between_corners(best.from, width_at(NEAR_END)),
+            to: self.between_corners(best.to, width_at(1.0 - NEAR_END)),
+        }
+    }
+
+    /// Half way between the two corners within a width of an end at which the border turns; where it turns at fewer or
+    /// more of them, the end as it is.
+    fn between_corners(&self, end: f64, width: f64) -> f64 {
+        let length = self.length();
+        let offset = |way: f64| (way - end + 0.5 * length).rem_euclid(length) - 0.5 * length;
+        let corners = 0..self.places.len();
+        let turns: Vec<f64> = corners
+            .filter(|at| self.turn_cosine(*at) < TURN_COSINE)
+            .map(|at| offset(self.ways[at]))
+            .filter(|offset| offset.abs() <= width)
+            .collect();
+        match turns.as_slice() {
+            [a, b] => end + 0.5 * (a + b),
+            _ => end,
+        }
+    }
+
+    /// Cosine of the angle by which the border turns at a corner.
+    fn turn_cosine(&self, at: usize) -> f64 {
+        let count = self.places.len();
+        let here = self.places[at];
+        let before = here - self.places[(at + count - 1) % count];
+        let after = self.places[(at + 1) % count] - here;
+        before.normalize_or_zero().dot(after.normalize_or_zero())
     }
 
     /// Of ends those between which the sides are nearest, of equal ones the first.
@@ -208,12 +246,11 @@ impl Border {
         };
         let points: Vec<CardPoint> = shares.iter().map(point).collect();
 
-        // A blunt end runs across: there the border goes on and the middle does not.
+        // A blunt end runs across: there the sides part as fast as the border goes on.
         let steps = points.len() - 1;
         let is_across = |at: &usize, end: usize| {
             let way = 0.5 * (there + back) * (shares[*at] - shares[end]).abs();
-            let gone = points[*at].place.distance(points[end].place);
-            way <= REACH * self.length() && gone < ON_SIDE * way
+            way <= REACH * self.length() && points[*at].width > way
         };
         let first = (0..steps).rev().find(|at| is_across(at, 0)).unwrap_or(0);
         let last = (first + 1..=steps)
