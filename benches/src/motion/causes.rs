@@ -1,0 +1,495 @@
+//! Why ends are lost and textures pop.
+//!
+//! A stroke comes of a raw line: a run of one kind on one surface, cut where something hides it. Raw lines are joined,
+//! smoothed and left out where they double others or are shreds; what ends in the open and is short is a stub and left
+//! out last. A frame is drawn with and without each ([`Stages`]), and what differs from a frame to the next is looked
+//! up there.
+
+use std::collections::BTreeMap;
+
+use super::near::distance;
+use super::tally::{JUMP_PX, MATCH_PX, Match, Pair, dot};
+use super::traced::{Line, Sample, Traced};
+
+/// Distance from a place up to which a raw end belongs to it, in pixels: raw lines are not smoothed yet.
+const AT_END_PX: f64 = 4.5;
+
+/// A frame as it is drawn, and on the way there.
+#[derive(Debug, Clone, Default)]
+pub struct Stages {
+    /// Lines before anything is joined, smoothed or left out.
+    pub raw: Traced,
+    /// What is drawn, and stubs.
+    pub with_stubs: Traced,
+    /// What is drawn.
+    pub drawn: Traced,
+}
+
+/// Why a line is not where it was.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Absence {
+    /// Something hides it.
+    Hidden,
+    /// The surface is seen there, and has no line.
+    NoLine,
+    /// It is left out as a stub.
+    Stub,
+    /// It is left out as a double or a shred.
+    Suppressed,
+}
+
+/// What parts two strokes in a frame that are one in the frame beside it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Joint {
+    /// Raw lines end there in both frames, and are joined in one.
+    Rule,
+    /// In one frame the raw line changes its kind or surface.
+    Kind,
+    /// In one frame a part of the raw line is hidden, or two raw lines end there.
+    Gap,
+    /// In neither frame does a raw line end there: it is cut on the way.
+    Cut,
+}
+
+/// Why a texture pops.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Pop {
+    /// The stroke runs the other way.
+    Reversed,
+    /// A stroke of another kind or surface lies there.
+    OtherLine,
+    /// A ring starts elsewhere.
+    Head,
+    /// A ring opened, or a line closed to a ring.
+    Ring(Joint),
+    /// What lies before its start is another stroke in one of both frames.
+    Joint(Joint),
+    /// What lies before its start is not drawn in one of both frames.
+    Start(Absence),
+    /// Its start is where it was, and the way from there is longer or shorter.
+    Stretched,
+}
+
+/// Why an end is lost.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Loss {
+    /// The stroke goes on there.
+    Joint(Joint),
+    /// The line is not drawn up to there any more.
+    Absence(Absence),
+}
+
+/// How often something happened, and where most of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Count {
+    /// Samples or ends.
+    pub count: usize,
+    /// Events that they belong to.
+    pub events: usize,
+    /// The largest event: samples or ends, number of the pair of frames, place in the later one.
+    pub largest: (usize, usize, [f64; 2]),
+}
+
+/// What happened, by cause.
+pub type Counts<T> = BTreeMap<T, Count>;
+
+/// Adds an event of `count` samples or ends.
+fn add<T: Ord>(counts: &mut Counts<T>, cause: T, count: usize, (pair, place): (usize, [f64; 2])) {
+    let entry = counts.entry(cause).or_insert(Count {
+        count: 0,
+        events: 0,
+        largest: (0, 0, [0.0; 2]),
+    });
+    entry.count += count;
+    entry.events += 1;
+    if count > entry.largest.0 {
+        entry.largest = (count, pair, place);
+    }
+}
+
+/// The causes of a sequence.
+#[derive(Debug, Clone, Default)]
+pub struct Causes {
+    /// Pairs of frames looked at.
+    pub pairs: usize,
+    /// Matches whose texture pops.
+    pub pops: Counts<Pop>,
+    /// Ends that are lost.
+    pub losses: Counts<Loss>,
+    /// Carried samples that are gone.
+    pub gone: Counts<Absence>,
+}
+
+/// Two frames, and whether a sample's point is seen in each.
+pub struct Frames<'a> {
+    /// The frame before and the one after.
+    pub stages: [&'a Stages; 2],
+    /// Whether the point of a sample that was carried to the later frame is seen there.
+    pub is_seen: &'a dyn Fn(&Sample) -> bool,
+    /// Whether the point of a sample of the later frame was seen in the one before.
+    pub was_seen: &'a dyn Fn(&Sample) -> bool,
+    /// The frame before, carried.
+    pub pair: &'a Pair,
+}
+
+impl Causes {
+    /// Looks for the causes of what changes between two frames.
+    pub fn add(&mut self, frames: &Frames<'_>) {
+        let number = self.pairs;
+        self.pairs += 1;
+        frames.pops(number, &mut self.pops);
+        frames.losses(number, &mut self.losses);
+        for sample in &frames.pair.gone {
+            let sample = &frames.pair.carried[*sample].sample;
+            let cause = frames.absence(sample);
+            add(&mut self.gone, cause, 1, (number, sample.place));
+        }
+    }
+}
+
+impl Frames<'_> {
+    /// Counts the pops of every pair of strokes that are one.
+    fn pops(&self, number: usize, counts: &mut Counts<Pop>) {
+        let [before, after] = self.stages;
+        let mut groups: BTreeMap<[usize; 2], Vec<&Match>> = BTreeMap::new();
+        for found in self.pair.matches.iter().filter(|found| found.slide > JUMP_PX) {
+            let strokes = [
+                before.drawn.samples[found.before].stroke,
+                after.drawn.samples[found.after].stroke,
+            ];
+            groups.entry(strokes).or_default().push(found);
+        }
+        for (strokes, group) in groups {
+            let middle = group[group.len() / 2];
+            let place = after.drawn.samples[middle.after].place;
+            add(counts, self.pop(strokes, &group), group.len(), (number, place));
+        }
+    }
+
+    /// Why the samples of two strokes that are one pop.
+    fn pop(&self, [a, b]: [usize; 2], group: &[&Match]) -> Pop {
+        // Compare what the strokes are.
+        let [before, after] = self.stages.map(|stages| &stages.drawn);
+        let [was, is] = [&before.strokes[a], &after.strokes[b]];
+        if (was.kind, was.surface) != (is.kind, is.surface) {
+            return Pop::OtherLine;
+        }
+        if was.closed && is.closed {
+            let way: f64 = group.iter().map(|found| self.turn(found)).sum();
+            return if way < 0.0 { Pop::Reversed } else { Pop::Head };
+        }
+        let [from, to] = [was, is].map(|line| line.samples[0]);
+        let first = self.pair.carried[from].sample.place;
+        if was.closed != is.closed {
+            // The place of the open one's ends is where the ring is parted.
+            let place = if is.closed { first } else { after.samples[to].place };
+            return Pop::Ring(self.joint(place));
+        }
+        if group.iter().map(|found| self.turn(found)).sum::<f64>() < 0.0 {
+            return Pop::Reversed;
+        }
+
+        // Find each start on the other stroke.
+        let on_later = nearest_of(after.samples[to..is.samples[1]].iter(), first);
+        let earlier = &self.pair.carried[from..was.samples[1]];
+        let earlier = earlier.iter().map(|carried| &carried.sample);
+        let on_earlier = nearest_of(earlier, after.samples[to].place);
+        match (on_later, on_earlier) {
+            (Some(station), _) if station > JUMP_PX => self.grown(a, is, station, first),
+            (_, Some(station)) if station > JUMP_PX => self.shrunk(b, was, station),
+            _ => Pop::Stretched,
+        }
+    }
+
+    /// Cosine between the directions of a match.
+    fn turn(&self, found: &Match) -> f64 {
+        let [before, after] = self.stages.map(|stages| &stages.drawn);
+        let (was, is) = (&before.samples[found.before], &after.samples[found.after]);
+        dot(was.along, is.along)
+    }
+
+    /// Why the later stroke `is` begins before the start of stroke `a`, which lies at `station` on it.
+    fn grown(&self, a: usize, is: &Line, station: f64, start: [f64; 2]) -> Pop {
+        let [before, after] = self.stages;
+        let front = &after.drawn.samples[is.samples[0]..][..station as usize];
+        let is_of_other = |sample: &Sample| {
+            let fits = |number: usize| self.pair.carried[number].sample.stroke != a;
+            let near = &self.pair.near;
+            near.nearest(sample.place, MATCH_PX, fits).is_some()
+        };
+        if is_most(front.iter(), is_of_other) {
+            return Pop::Joint(self.joint(start));
+        }
+
+        // What was not there before is looked up where it would have been: as far off as the frame moved here.
+        let moved = self.moved_near(start);
+        let back = |sample: &Sample| [0, 1].map(|i| sample.place[i] - moved[i]);
+        let is_in = |traced: &Traced| {
+            is_most(front.iter(), |sample| traced.near.is_near(back(sample), MATCH_PX))
+        };
+        Pop::Start(match () {
+            () if is_in(&before.with_stubs) => Absence::Stub,
+            () if is_in(&before.raw) => Absence::Suppressed,
+            () if is_most(front.iter(), self.was_seen) => Absence::NoLine,
+            () => Absence::Hidden,
+        })
+    }
+
+    /// Why stroke `was` begins before the start of the later stroke `b`, which lies at `station` on it.
+    fn shrunk(&self, b: usize, was: &Line, station: f64) -> Pop {
+        let after = self.stages[1];
+        let front = &self.pair.carried[was.samples[0]..][..station as usize];
+        let front = || front.iter().map(|carried| &carried.sample);
+        let is_of_other = |sample: &Sample| {
+            let fits = |number: usize| after.drawn.samples[number].stroke != b;
+            let near = &after.drawn.near;
+            near.nearest(sample.place, MATCH_PX, fits).is_some()
+        };
+        if is_most(front(), is_of_other) {
+            let start = after.drawn.samples[after.drawn.strokes[b].samples[0]].place;
+            return Pop::Joint(self.joint(start));
+        }
+        Pop::Start(self.most_absent(front()))
+    }
+
+    /// Counts the lost ends.
+    fn losses(&self, number: usize, counts: &mut Counts<Loss>) {
+        let [before, after] = self.stages;
+        for (end, place) in &self.pair.ends {
+            let is_near = |other: &super::traced::End| distance(other.place, *place) <= JUMP_PX;
+            if after.drawn.ends.iter().any(is_near) {
+                continue;
+            }
+            let cause = match after.drawn.near.is_near(*place, MATCH_PX) {
+                true => Loss::Joint(self.joint(*place)),
+                false => {
+                    // Look at the last pixels of the stroke.
+                    let end = before.drawn.ends[*end];
+                    let [from, to] = before.drawn.strokes[end.stroke].samples;
+                    let (from, to) = match end.is_start {
+                        true => (from, to.min(from + JUMP_PX as usize)),
+                        false => (from.max(to.saturating_sub(JUMP_PX as usize)), to),
+                    };
+                    let samples = self.pair.carried[from..to].iter();
+                    Loss::Absence(self.most_absent(samples.map(|carried| &carried.sample)))
+                }
+            };
+            add(counts, cause, 1, (number, *place));
+        }
+    }
+
+    /// Why most of some carried samples are not drawn.
+    fn most_absent<'b>(&self, samples: impl Iterator<Item = &'b Sample>) -> Absence {
+        let mut counts: BTreeMap<Absence, usize> = BTreeMap::new();
+        for sample in samples {
+            if !self.stages[1].drawn.near.is_near(sample.place, MATCH_PX) {
+                *counts.entry(self.absence(sample)).or_default() += 1;
+            }
+        }
+        let most = counts.into_iter().max_by_key(|(_, count)| *count);
+        most.map_or(Absence::Suppressed, |(cause, _)| cause)
+    }
+
+    /// Why a carried sample is not drawn.
+    fn absence(&self, sample: &Sample) -> Absence {
+        let after = self.stages[1];
+        if after.with_stubs.near.is_near(sample.place, MATCH_PX) {
+            return Absence::Stub;
+        }
+        if after.raw.near.is_near(sample.place, MATCH_PX) {
+            return Absence::Suppressed;
+        }
+        match (self.is_seen)(sample) {
+            true => Absence::NoLine,
+            false => Absence::Hidden,
+        }
+    }
+
+    /// What parts strokes at a place of the later frame, in one of both frames.
+    fn joint(&self, place: [f64; 2]) -> Joint {
+        let moved = self.moved_near(place);
+        let [before, after] = self.stages;
+        let was = [0, 1].map(|i| place[i] - moved[i]);
+        let [ends_before, ends_after] = [(before, was), (after, place)]
+            .map(|(stages, place)| raw_ends(&stages.raw, place));
+        match [ends_before.is_empty(), ends_after.is_empty()] {
+            [false, false] => Joint::Rule,
+            [true, true] => Joint::Cut,
+            [true, false] => parted_by(&ends_after),
+            [false, true] => parted_by(&ends_before),
+        }
+    }
+
+    /// How far the picture moved at a place of the later frame.
+    fn moved_near(&self, place: [f64; 2]) -> [f64; 2] {
+        let before = &self.stages[0].drawn.samples;
+        let carried = self.pair.carried.iter().map(|carried| &carried.sample);
+        let nearest = carried.zip(before).min_by(|(a, _), (b, _)| {
+            distance(a.place, place).total_cmp(&distance(b.place, place))
+        });
+        nearest.map_or([0.0; 2], |(there, here)| {
+            [0, 1].map(|i| there.place[i] - here.place[i])
+        })
+    }
+}
+
+/// The raw lines that end at a place.
+fn raw_ends(raw: &Traced, place: [f64; 2]) -> Vec<Line> {
+    let near = raw.ends.iter().filter(|end| distance(end.place, place) <= AT_END_PX);
+    near.map(|end| raw.strokes[end.stroke]).collect()
+}
+
+/// What parts the lines that end at one place.
+fn parted_by(ends: &[Line]) -> Joint {
+    let of = |line: &Line| (line.kind, line.surface);
+    let is_other = |line: &Line| of(line) != of(&ends[0]);
+    match ends.iter().any(is_other) {
+        true => Joint::Kind,
+        false => Joint::Gap,
+    }
+}
+
+/// Whether more than half of some samples are so.
+fn is_most<'a>(
+    samples: impl Iterator<Item = &'a Sample>,
+    is_so: impl Fn(&Sample) -> bool,
+) -> bool {
+    let (mut all, mut so) = (0, 0);
+    for sample in samples {
+        all += 1;
+        so += usize::from(is_so(sample));
+    }
+    2 * so > all
+}
+
+/// The station of the sample that is nearest to a place, where one lies within reach.
+fn nearest_of<'a>(samples: impl Iterator<Item = &'a Sample>, place: [f64; 2]) -> Option<f64> {
+    let away = samples.map(|sample| (distance(sample.place, place), sample.station));
+    let (away, station) = away.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    (away <= AT_END_PX).then_some(station)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::step::Step;
+    use crate::motion::testing::{line, ring, ring_from, sheet_moved, traced};
+    use npr_vector::stroke::{Kind, Stroke};
+
+    /// Strokes that nothing is left out of.
+    fn plain(strokes: &[Stroke]) -> Stages {
+        staged(strokes, strokes)
+    }
+
+    fn staged(drawn: &[Stroke], raw: &[Stroke]) -> Stages {
+        Stages {
+            raw: traced(raw),
+            with_stubs: traced(drawn),
+            drawn: traced(drawn),
+        }
+    }
+
+    fn causes_of(before: &Stages, after: &Stages, is_seen: bool) -> Causes {
+        let step = Step {
+            from: sheet_moved(0.0),
+            to: sheet_moved(0.0),
+            skin: None,
+        };
+        let mut causes = Causes::default();
+        causes.add(&Frames {
+            stages: [before, after],
+            is_seen: &|_| is_seen,
+            was_seen: &|_| is_seen,
+            pair: &Pair::new(&before.drawn, &after.drawn, &step),
+        });
+        causes
+    }
+
+    fn pops_of(before: &Stages, after: &Stages) -> Vec<Pop> {
+        causes_of(before, after, true).pops.into_keys().collect()
+    }
+
+    #[test]
+    fn each_pop_has_its_cause() {
+        // A line in one piece, and in two.
+        let whole = line([100.0, 90.0], [300.0, 90.0]);
+        let halves = [
+            line([100.0, 90.0], [200.0, 90.0]),
+            line([200.0, 90.0], [300.0, 90.0]),
+        ];
+        let mut other_kind = halves.clone();
+        other_kind[0].kind = Kind::Crease;
+        let (one, two) = (plain(std::slice::from_ref(&whole)), plain(&halves));
+        let joined = staged(std::slice::from_ref(&whole), &halves);
+        let cases = [
+            (&one, &two, Pop::Joint(Joint::Gap)),
+            (&two, &one, Pop::Joint(Joint::Gap)),
+            (&joined, &two, Pop::Joint(Joint::Rule)),
+            (&two, &joined, Pop::Joint(Joint::Rule)),
+            (&one, &staged(&halves, std::slice::from_ref(&whole)), Pop::Joint(Joint::Cut)),
+            (&one, &staged(&halves, &other_kind), Pop::Joint(Joint::Kind)),
+            // A line that loses its front.
+            (&one, &plain(&halves[1..]), Pop::Start(Absence::NoLine)),
+            (&one, &staged(&halves[1..], &halves), Pop::Start(Absence::Suppressed)),
+            (&plain(&halves[1..]), &one, Pop::Start(Absence::NoLine)),
+            (&staged(&halves[1..], &halves), &one, Pop::Start(Absence::Suppressed)),
+            // A line that is another one, or runs the other way.
+            (&plain(&halves[..1]), &plain(&[turned(&halves[0])]), Pop::Reversed),
+            (
+                &plain(&[lengthened(&other_kind[0])]),
+                &plain(&halves[..1]),
+                Pop::OtherLine,
+            ),
+            (&plain(&halves[..1]), &plain(&[lengthened(&halves[0])]), Pop::Stretched),
+            // Rings.
+            (
+                &plain(&[ring([300.0, 200.0], 80.0)]),
+                &plain(&[ring_from([300.0, 200.0], 80.0, 30)]),
+                Pop::Head,
+            ),
+        ];
+        for (number, (before, after, pop)) in cases.into_iter().enumerate() {
+            assert_eq!(pops_of(before, after), [pop], "case {number}");
+        }
+    }
+
+    fn turned(stroke: &Stroke) -> Stroke {
+        let [from, to] = [&stroke.points[1], &stroke.points[0]].map(|point| point.position);
+        line(from, to)
+    }
+
+    /// The same stroke with a texture that starts later.
+    fn lengthened(stroke: &Stroke) -> Stroke {
+        let mut stroke = stroke.clone();
+        stroke.points.iter_mut().for_each(|point| point.u += 20.0);
+        stroke
+    }
+
+    #[test]
+    fn each_lost_end_has_its_cause() {
+        let lines = [
+            line([100.0, 90.0], [200.0, 90.0]),
+            line([100.0, 190.0], [200.0, 190.0]),
+        ];
+        let without = plain(&lines[..1]);
+        let losses = |after: &Stages, is_seen: bool| -> Vec<(Loss, usize)> {
+            let causes = causes_of(&plain(&lines), after, is_seen);
+            let losses = causes.losses.into_iter();
+            losses.map(|(loss, count)| (loss, count.count)).collect()
+        };
+        let absent = |absence| vec![(Loss::Absence(absence), 2)];
+        assert_eq!(losses(&without, true), absent(Absence::NoLine));
+        assert_eq!(losses(&without, false), absent(Absence::Hidden));
+        assert_eq!(losses(&staged(&lines[..1], &lines), true), absent(Absence::Suppressed));
+        let stubs = Stages {
+            with_stubs: traced(&lines),
+            ..plain(&lines[..1])
+        };
+        assert_eq!(losses(&stubs, true), absent(Absence::Stub));
+
+        // Both ends of the second line become places on its way.
+        let longer = [lines[0].clone(), line([50.0, 190.0], [250.0, 190.0])];
+        let goes_on = vec![(Loss::Joint(Joint::Gap), 2)];
+        assert_eq!(losses(&plain(&longer), true), goes_on);
+    }
+}
