@@ -7,6 +7,8 @@
 
 use std::collections::BTreeMap;
 
+use npr_vector::mesh_lines::{DEPTH_SHARE, FACING_PX, STRAIGHT_COS, TOUCHING_PX};
+
 use super::near::distance;
 use super::tally::{JUMP_PX, MATCH_PX, Match, Pair, dot};
 use super::traced::{Line, Sample, Traced};
@@ -51,6 +53,21 @@ pub enum Joint {
     Cut,
 }
 
+/// Why ends that meet are joined in one of two frames alone, by what is drawn in the frame that parts them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Rule {
+    /// One lies deeper than the other by more than lines may that are joined.
+    Depth,
+    /// They lie too far apart in the picture.
+    Apart,
+    /// They do not go on straight enough.
+    Turn,
+    /// What lies before the one goes on another way.
+    Partner,
+    /// Nothing of all that: a third end was there, or they moved since.
+    Other,
+}
+
 /// Why a texture pops.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Pop {
@@ -62,12 +79,16 @@ pub enum Pop {
     Head,
     /// A ring opened, or a line closed to a ring.
     Ring(Joint),
+    /// What lies before its start is another stroke in one of both frames, although raw lines end there in both.
+    Rule(Rule),
     /// What lies before its start is another stroke in one of both frames.
     Joint(Joint),
     /// What lies before its start is not drawn in one of both frames.
     Start(Absence),
     /// Its start is where it was, and the way from there is longer or shorter.
     Stretched,
+    /// Neither start lies on the other stroke.
+    Elsewhere,
 }
 
 /// Why an end is lost.
@@ -152,7 +173,12 @@ impl Frames<'_> {
     fn pops(&self, number: usize, counts: &mut Counts<Pop>) {
         let [before, after] = self.stages;
         let mut groups: BTreeMap<[usize; 2], Vec<&Match>> = BTreeMap::new();
-        for found in self.pair.matches.iter().filter(|found| found.slide > JUMP_PX) {
+        for found in self
+            .pair
+            .matches
+            .iter()
+            .filter(|found| found.slide > JUMP_PX)
+        {
             let strokes = [
                 before.drawn.samples[found.before].stroke,
                 after.drawn.samples[found.after].stroke,
@@ -160,9 +186,14 @@ impl Frames<'_> {
             groups.entry(strokes).or_default().push(found);
         }
         for (strokes, group) in groups {
-            let middle = group[group.len() / 2];
-            let place = after.drawn.samples[middle.after].place;
-            add(counts, self.pop(strokes, &group), group.len(), (number, place));
+            let start = after.drawn.strokes[strokes[1]].samples[0];
+            let place = after.drawn.samples[start].place;
+            add(
+                counts,
+                self.pop(strokes, &group),
+                group.len(),
+                (number, place),
+            );
         }
     }
 
@@ -182,7 +213,11 @@ impl Frames<'_> {
         let first = self.pair.carried[from].sample.place;
         if was.closed != is.closed {
             // The place of the open one's ends is where the ring is parted.
-            let place = if is.closed { first } else { after.samples[to].place };
+            let place = if is.closed {
+                first
+            } else {
+                after.samples[to].place
+            };
             return Pop::Ring(self.joint(place));
         }
         if group.iter().map(|found| self.turn(found)).sum::<f64>() < 0.0 {
@@ -197,7 +232,8 @@ impl Frames<'_> {
         match (on_later, on_earlier) {
             (Some(station), _) if station > JUMP_PX => self.grown(a, is, station, first),
             (_, Some(station)) if station > JUMP_PX => self.shrunk(b, was, station),
-            _ => Pop::Stretched,
+            (Some(_), _) | (_, Some(_)) => Pop::Stretched,
+            (None, None) => Pop::Elsewhere,
         }
     }
 
@@ -212,20 +248,22 @@ impl Frames<'_> {
     fn grown(&self, a: usize, is: &Line, station: f64, start: [f64; 2]) -> Pop {
         let [before, after] = self.stages;
         let front = &after.drawn.samples[is.samples[0]..][..station as usize];
-        let is_of_other = |sample: &Sample| {
+        let stroke_at = |sample: &Sample| {
             let fits = |number: usize| self.pair.carried[number].sample.stroke != a;
-            let near = &self.pair.near;
-            near.nearest(sample.place, MATCH_PX, fits).is_some()
+            let found = self.pair.near.nearest(sample.place, MATCH_PX, fits)?;
+            Some(self.pair.carried[found.0].sample.stroke)
         };
-        if is_most(front.iter(), is_of_other) {
-            return Pop::Joint(self.joint(start));
+        if let Some(other) = most_of(front.iter().map(stroke_at)) {
+            return self.joined(self.joint(start), &before.drawn, [a, other]);
         }
 
         // What was not there before is looked up where it would have been: as far off as the frame moved here.
         let moved = self.moved_near(start);
         let back = |sample: &Sample| [0, 1].map(|i| sample.place[i] - moved[i]);
         let is_in = |traced: &Traced| {
-            is_most(front.iter(), |sample| traced.near.is_near(back(sample), MATCH_PX))
+            is_most(front.iter(), |sample| {
+                traced.near.is_near(back(sample), MATCH_PX)
+            })
         };
         Pop::Start(match () {
             () if is_in(&before.with_stubs) => Absence::Stub,
@@ -240,16 +278,24 @@ impl Frames<'_> {
         let after = self.stages[1];
         let front = &self.pair.carried[was.samples[0]..][..station as usize];
         let front = || front.iter().map(|carried| &carried.sample);
-        let is_of_other = |sample: &Sample| {
+        let stroke_at = |sample: &Sample| {
             let fits = |number: usize| after.drawn.samples[number].stroke != b;
-            let near = &after.drawn.near;
-            near.nearest(sample.place, MATCH_PX, fits).is_some()
+            let found = after.drawn.near.nearest(sample.place, MATCH_PX, fits)?;
+            Some(after.drawn.samples[found.0].stroke)
         };
-        if is_most(front(), is_of_other) {
+        if let Some(other) = most_of(front().map(stroke_at)) {
             let start = after.drawn.samples[after.drawn.strokes[b].samples[0]].place;
-            return Pop::Joint(self.joint(start));
+            return self.joined(self.joint(start), &after.drawn, [b, other]);
         }
         Pop::Start(self.most_absent(front()))
+    }
+
+    /// A pop by what lies before the start of stroke `own`, in the frame in which that is the stroke `other`.
+    fn joined(&self, joint: Joint, parted: &Traced, [own, other]: [usize; 2]) -> Pop {
+        match joint {
+            Joint::Rule => Pop::Rule(rule(parted, [own, other])),
+            _ => Pop::Joint(joint),
+        }
     }
 
     /// Counts the lost ends.
@@ -310,8 +356,8 @@ impl Frames<'_> {
         let moved = self.moved_near(place);
         let [before, after] = self.stages;
         let was = [0, 1].map(|i| place[i] - moved[i]);
-        let [ends_before, ends_after] = [(before, was), (after, place)]
-            .map(|(stages, place)| raw_ends(&stages.raw, place));
+        let [ends_before, ends_after] =
+            [(before, was), (after, place)].map(|(stages, place)| raw_ends(&stages.raw, place));
         match [ends_before.is_empty(), ends_after.is_empty()] {
             [false, false] => Joint::Rule,
             [true, true] => Joint::Cut,
@@ -324,18 +370,77 @@ impl Frames<'_> {
     fn moved_near(&self, place: [f64; 2]) -> [f64; 2] {
         let before = &self.stages[0].drawn.samples;
         let carried = self.pair.carried.iter().map(|carried| &carried.sample);
-        let nearest = carried.zip(before).min_by(|(a, _), (b, _)| {
-            distance(a.place, place).total_cmp(&distance(b.place, place))
-        });
+        let nearest = carried
+            .zip(before)
+            .min_by(|(a, _), (b, _)| distance(a.place, place).total_cmp(&distance(b.place, place)));
         nearest.map_or([0.0; 2], |(there, here)| {
             [0, 1].map(|i| there.place[i] - here.place[i])
         })
     }
 }
 
+/// Why the start of a stroke is not joined with the nearer end of another one.
+fn rule(parted: &Traced, [own, other]: [usize; 2]) -> Rule {
+    let start = tip(parted, own, true);
+    let ends = [true, false].map(|is_start| tip(parted, other, is_start));
+    let away = |end: &Sample| distance(end.place, start.place);
+    let end = match away(&ends[0]) <= away(&ends[1]) {
+        true => &ends[0],
+        false => &ends[1],
+    };
+    let depth = start.depth.min(end.depth);
+    let across = [0, 1].map(|i| end.place[i] - start.place[i]);
+    let gap = away(end);
+    let aims = [dot(across, start.along), -dot(across, end.along)]
+        .iter()
+        .all(|ahead| *ahead >= STRAIGHT_COS * gap);
+    match () {
+        () if parted.strokes[other].closed || gap > 2.0 * FACING_PX => Rule::Partner,
+        () if (start.depth - end.depth).abs() > DEPTH_SHARE * depth => Rule::Depth,
+        () if gap > FACING_PX => Rule::Apart,
+        () if -dot(start.along, end.along) < STRAIGHT_COS => Rule::Turn,
+        () if gap > TOUCHING_PX && !aims => Rule::Turn,
+        () => Rule::Other,
+    }
+}
+
+/// An end of a stroke, with the direction out of it, taken over the last pixels.
+fn tip(traced: &Traced, stroke: usize, is_start: bool) -> Sample {
+    let [from, to] = traced.strokes[stroke].samples;
+    let inward = (to - from - 1).min(JUMP_PX as usize);
+    let (end, inner) = match is_start {
+        true => (from, from + inward),
+        false => (to - 1, to - 1 - inward),
+    };
+    let [end, inner] = [end, inner].map(|number| traced.samples[number]);
+    let length = distance(end.place, inner.place);
+    let along = match length > 0.0 {
+        true => [0, 1].map(|i| (end.place[i] - inner.place[i]) / length),
+        false => end.along,
+    };
+    Sample { along, ..end }
+}
+
+/// What more than half of some choices are, where they are one at all.
+fn most_of(choices: impl Iterator<Item = Option<usize>>) -> Option<usize> {
+    let (mut all, mut counts) = (0, BTreeMap::<usize, usize>::new());
+    for choice in choices {
+        all += 1;
+        if let Some(choice) = choice {
+            *counts.entry(choice).or_default() += 1;
+        }
+    }
+    let chosen: usize = counts.values().sum();
+    let (most, _) = counts.into_iter().max_by_key(|(_, count)| *count)?;
+    (2 * chosen > all).then_some(most)
+}
+
 /// The raw lines that end at a place.
 fn raw_ends(raw: &Traced, place: [f64; 2]) -> Vec<Line> {
-    let near = raw.ends.iter().filter(|end| distance(end.place, place) <= AT_END_PX);
+    let near = raw
+        .ends
+        .iter()
+        .filter(|end| distance(end.place, place) <= AT_END_PX);
     near.map(|end| raw.strokes[end.stroke]).collect()
 }
 
@@ -350,10 +455,7 @@ fn parted_by(ends: &[Line]) -> Joint {
 }
 
 /// Whether more than half of some samples are so.
-fn is_most<'a>(
-    samples: impl Iterator<Item = &'a Sample>,
-    is_so: impl Fn(&Sample) -> bool,
-) -> bool {
+fn is_most<'a>(samples: impl Iterator<Item = &'a Sample>, is_so: impl Fn(&Sample) -> bool) -> bool {
     let (mut all, mut so) = (0, 0);
     for sample in samples {
         all += 1;
@@ -421,26 +523,51 @@ mod tests {
         other_kind[0].kind = Kind::Crease;
         let (one, two) = (plain(std::slice::from_ref(&whole)), plain(&halves));
         let joined = staged(std::slice::from_ref(&whole), &halves);
+        let mut before_another = halves.clone();
+        let points = before_another[0].points.iter_mut();
+        points.for_each(|point| point.depth *= 1.1);
+        let deeper = plain(&before_another);
         let cases = [
             (&one, &two, Pop::Joint(Joint::Gap)),
             (&two, &one, Pop::Joint(Joint::Gap)),
-            (&joined, &two, Pop::Joint(Joint::Rule)),
-            (&two, &joined, Pop::Joint(Joint::Rule)),
-            (&one, &staged(&halves, std::slice::from_ref(&whole)), Pop::Joint(Joint::Cut)),
+            (&joined, &two, Pop::Rule(Rule::Other)),
+            (&two, &joined, Pop::Rule(Rule::Other)),
+            (&joined, &deeper, Pop::Rule(Rule::Depth)),
+            (
+                &one,
+                &staged(&halves, std::slice::from_ref(&whole)),
+                Pop::Joint(Joint::Cut),
+            ),
             (&one, &staged(&halves, &other_kind), Pop::Joint(Joint::Kind)),
             // A line that loses its front.
             (&one, &plain(&halves[1..]), Pop::Start(Absence::NoLine)),
-            (&one, &staged(&halves[1..], &halves), Pop::Start(Absence::Suppressed)),
+            (
+                &one,
+                &staged(&halves[1..], &halves),
+                Pop::Start(Absence::Suppressed),
+            ),
             (&plain(&halves[1..]), &one, Pop::Start(Absence::NoLine)),
-            (&staged(&halves[1..], &halves), &one, Pop::Start(Absence::Suppressed)),
+            (
+                &staged(&halves[1..], &halves),
+                &one,
+                Pop::Start(Absence::Suppressed),
+            ),
             // A line that is another one, or runs the other way.
-            (&plain(&halves[..1]), &plain(&[turned(&halves[0])]), Pop::Reversed),
+            (
+                &plain(&halves[..1]),
+                &plain(&[turned(&halves[0])]),
+                Pop::Reversed,
+            ),
             (
                 &plain(&[lengthened(&other_kind[0])]),
                 &plain(&halves[..1]),
                 Pop::OtherLine,
             ),
-            (&plain(&halves[..1]), &plain(&[lengthened(&halves[0])]), Pop::Stretched),
+            (
+                &plain(&halves[..1]),
+                &plain(&[lengthened(&halves[0])]),
+                Pop::Stretched,
+            ),
             // Rings.
             (
                 &plain(&[ring([300.0, 200.0], 80.0)]),
@@ -480,7 +607,10 @@ mod tests {
         let absent = |absence| vec![(Loss::Absence(absence), 2)];
         assert_eq!(losses(&without, true), absent(Absence::NoLine));
         assert_eq!(losses(&without, false), absent(Absence::Hidden));
-        assert_eq!(losses(&staged(&lines[..1], &lines), true), absent(Absence::Suppressed));
+        assert_eq!(
+            losses(&staged(&lines[..1], &lines), true),
+            absent(Absence::Suppressed)
+        );
         let stubs = Stages {
             with_stubs: traced(&lines),
             ..plain(&lines[..1])

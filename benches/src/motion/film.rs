@@ -84,10 +84,10 @@ impl Film {
                 }
             }
             Self::Pan => {
-                // The picture at its middle is so many pixels a radian.
-                let half_deg = FOV_DEG / 2.0;
-                let px = height_px as f32 / 2.0 * cos(half_deg.to_radians())
-                    / sin(half_deg.to_radians());
+                // A turn about the upright axis moves the middle by so many pixels a radian.
+                let half = FOV_DEG.to_radians() / 2.0;
+                let distance_px = height_px as f32 / 2.0 * cos(half) / sin(half);
+                let px = distance_px * cos(ABOVE_DEG.to_radians());
                 let eye = Vec3::from(first.eye);
                 let about_eye = turned(first, eye, (PAN_PX * count / px).to_degrees());
                 Camera {

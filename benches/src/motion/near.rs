@@ -68,8 +68,7 @@ impl Near {
         let mut best: Option<(usize, f64)> = None;
         self.visit(place, |number| {
             let away = distance(self.places[number], place);
-            let is_nearer =
-                best.is_none_or(|(other, least)| (away, number) < (least, other));
+            let is_nearer = best.is_none_or(|(other, least)| (away, number) < (least, other));
             if away <= reach_px && is_nearer && fits(number) {
                 best = Some((number, away));
             }

@@ -60,7 +60,8 @@ impl Skin {
         let Some((face, shares)) = self.nearest(point) else {
             return point;
         };
-        let at = |pose: &[DVec3]| mixed(self.faces[face as usize].map(|v| pose[v as usize]), shares);
+        let at =
+            |pose: &[DVec3]| mixed(self.faces[face as usize].map(|v| pose[v as usize]), shares);
         let [before, after] = [0, 1].map(|i| at(&self.poses[i]));
         point + (after - before)
     }

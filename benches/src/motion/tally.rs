@@ -9,6 +9,8 @@
 //! - **blink**: how much of it goes for one frame alone
 //! - **jitter**: how far ink lies beside the carried ink
 
+use std::collections::BTreeMap;
+
 use super::near::{Near, distance};
 use super::step::Step;
 use super::traced::{Sample, Traced, is_inside};
@@ -108,40 +110,76 @@ impl Pair {
 }
 
 /// For every drawn sample the nearest carried one that runs the same way or the opposite one.
-fn matches(
-    (before, carried, near): (&Traced, &[Carried], &Near),
-    after: &Traced,
-) -> Vec<Match> {
-    let found = after.samples.iter().enumerate().filter_map(|(number, sample)| {
-        // Find the nearest, or one of the same stroke that is as near.
-        let line = &after.strokes[sample.stroke];
-        let is_along =
-            |other: usize| dot(carried[other].sample.along, sample.along).abs() > MATCH_COS;
-        let is_own = |other: usize| {
-            is_along(other) && before.strokes[carried[other].sample.stroke].id == line.id
-        };
-        let (nearest, away) = near.nearest(sample.place, MATCH_PX, is_along)?;
-        let own = near.nearest(sample.place, away + TIE_PX, is_own);
-        let before = own.map_or(nearest, |(own, _)| own);
+fn matches((before, carried, near): (&Traced, &[Carried], &Near), after: &Traced) -> Vec<Match> {
+    let found = after
+        .samples
+        .iter()
+        .enumerate()
+        .filter_map(|(number, sample)| {
+            // Find the nearest, or one of the same stroke that is as near.
+            let line = &after.strokes[sample.stroke];
+            let is_along =
+                |other: usize| dot(carried[other].sample.along, sample.along).abs() > MATCH_COS;
+            let is_own = |other: usize| {
+                is_along(other) && before.strokes[carried[other].sample.stroke].id == line.id
+            };
+            let (nearest, away) = near.nearest(sample.place, MATCH_PX, is_along)?;
+            let own = near.nearest(sample.place, away + TIE_PX, is_own);
+            let before = own.map_or(nearest, |(own, _)| own);
 
-        // Compare the two.
-        let was = &carried[before].sample;
-        let slide = (sample.u - was.u).abs();
-        let slide = match line.closed && line.length > 0.0 {
-            true => {
-                let round = slide.rem_euclid(line.length);
-                round.min(line.length - round)
-            }
-            false => slide,
-        };
-        Some(Match {
-            before,
-            after: number,
-            slide,
-            offset: offset(was, sample.place),
-        })
-    });
+            // Compare the two.
+            let was = &carried[before].sample;
+            let slide = (sample.u - was.u).abs();
+            let slide = match line.closed && line.length > 0.0 {
+                true => {
+                    let round = slide.rem_euclid(line.length);
+                    round.min(line.length - round)
+                }
+                false => slide,
+            };
+            Some(Match {
+                before,
+                after: number,
+                slide,
+                offset: offset(was, sample.place),
+            })
+        });
     found.collect()
+}
+
+/// How far textures still slide where every stroke takes over its texture as a whole, in pixels: the way that it runs
+/// and the shift that suit most of what it was matched with [Kalnins et al. 2003]. A slide for every match.
+///
+/// Only the step from one frame to the next is told: strokes that are joined have one texture from then on.
+pub fn voted_slides(before: &Traced, after: &Traced, matches: &[Match]) -> Vec<f64> {
+    let mut of_strokes: BTreeMap<usize, Vec<&Match>> = BTreeMap::new();
+    for found in matches {
+        let stroke = after.samples[found.after].stroke;
+        of_strokes.entry(stroke).or_default().push(found);
+    }
+    let slides = of_strokes.into_iter().flat_map(|(stroke, group)| {
+        // Decide which way the texture runs.
+        let pairs = group
+            .iter()
+            .map(|found| (&before.samples[found.before], &after.samples[found.after]));
+        let turns = pairs
+            .clone()
+            .map(|(was, is)| dot(was.along, is.along).signum());
+        let way = if turns.sum::<f64>() < 0.0 { -1.0 } else { 1.0 };
+
+        // Take the shift in the middle; around a ring all are near the first.
+        let line = &after.strokes[stroke];
+        let shifts: Vec<f64> = pairs.map(|(was, is)| was.u - way * is.u).collect();
+        let first = shifts[0];
+        let near_first = |shift: f64| match line.closed && line.length > 0.0 {
+            true => shift - ((shift - first) / line.length).round() * line.length,
+            false => shift,
+        };
+        let shifts: Vec<f64> = shifts.into_iter().map(near_first).collect();
+        let shift = median(shifts.iter().copied());
+        shifts.into_iter().map(move |own| (own - shift).abs())
+    });
+    slides.collect()
 }
 
 /// How far a place lies to the left of a stroke at a sample of it, in pixels.
@@ -169,6 +207,8 @@ pub struct Tally {
     pub born: [usize; 2],
     /// Slide of every match, in pixels.
     pub slides: Vec<f64>,
+    /// Matches that would pop although strokes took over their textures as a whole.
+    pub voted_pops: usize,
     /// Matches whose stroke has the same identity in both frames.
     pub same_id: usize,
     /// Samples that were carried to places in the picture.
@@ -204,13 +244,19 @@ impl Tally {
         let carried: Vec<[f64; 2]> = pair.ends.iter().map(|(_, place)| *place).collect();
         let drifts = carried.iter().map(|end| least_distance(*end, &there));
         self.drifts.extend(drifts);
-        let born = there.iter().filter(|end| least_distance(**end, &carried) > JUMP_PX);
+        let born = there
+            .iter()
+            .filter(|end| least_distance(**end, &carried) > JUMP_PX);
         self.born[1] += born.count();
         self.born[0] += there.len();
 
         // Add up what is drawn in both.
-        self.slides.extend(pair.matches.iter().map(|found| found.slide));
-        self.offsets.extend(pair.matches.iter().map(|found| found.offset));
+        self.slides
+            .extend(pair.matches.iter().map(|found| found.slide));
+        let voted = voted_slides(before, after, &pair.matches);
+        self.voted_pops += voted.iter().filter(|slide| **slide > JUMP_PX).count();
+        self.offsets
+            .extend(pair.matches.iter().map(|found| found.offset));
         let id = |traced: &Traced, sample: &Sample| traced.strokes[sample.stroke].id;
         let is_same = |found: &&Match| {
             id(before, &before.samples[found.before]) == id(after, &after.samples[found.after])
@@ -218,7 +264,11 @@ impl Tally {
         self.same_id += pair.matches.iter().filter(is_same).count();
 
         // Add up what is gone and should not be.
-        self.carried += pair.carried.iter().filter(|sample| sample.is_inside).count();
+        self.carried += pair
+            .carried
+            .iter()
+            .filter(|sample| sample.is_inside)
+            .count();
         for number in &pair.gone {
             let sample = &pair.carried[*number].sample;
             self.flickers += usize::from(due.raw.near.is_near(sample.place, MATCH_PX));
@@ -242,7 +292,11 @@ impl Tally {
         let is_contour = |traced: &Traced, sample: &Sample| {
             traced.strokes[sample.stroke].kind == npr_vector::stroke::Kind::Contour
         };
-        for sample in drawn.samples.iter().filter(|sample| is_contour(drawn, sample)) {
+        for sample in drawn
+            .samples
+            .iter()
+            .filter(|sample| is_contour(drawn, sample))
+        {
             let fits = |number: usize| {
                 let other = &raw.samples[number];
                 is_contour(raw, other) && dot(other.along, sample.along).abs() > MATCH_COS
@@ -279,6 +333,11 @@ impl Tally {
     pub fn pop(&self) -> f64 {
         let pops = self.slides.iter().filter(|slide| **slide > JUMP_PX);
         share(pops.count(), self.slides.len())
+    }
+
+    /// The same where strokes took over their textures as a whole.
+    pub fn voted_pop(&self) -> f64 {
+        share(self.voted_pops, self.slides.len())
     }
 
     /// Share of matches whose stroke keeps its identity.
@@ -331,7 +390,12 @@ impl Tally {
         is_zero(&self.drifts)
             && is_zero(&self.slides)
             && is_zero(&self.offsets)
-            && [self.born[1], self.flickers, self.gone_points, self.blinks[1]] == [0; 4]
+            && [
+                self.born[1],
+                self.flickers,
+                self.gone_points,
+                self.blinks[1],
+            ] == [0; 4]
             && self.same_id == self.slides.len()
     }
 }
@@ -405,8 +469,19 @@ mod tests {
         let tally = tally_of(&frame, &frame, &still());
         assert!(tally.is_still());
         assert_eq!(tally.slides.len(), 5 * 100 + 388);
-        let figures = [tally.drift(), tally.lost(), tally.born_share(), tally.slide(), tally.pop()];
-        let more = [tally.flicker(), tally.gone_point_share(), tally.jitter(), tally.mean_bias()];
+        let figures = [
+            tally.drift(),
+            tally.lost(),
+            tally.born_share(),
+            tally.slide(),
+            tally.pop(),
+        ];
+        let more = [
+            tally.flicker(),
+            tally.gone_point_share(),
+            tally.jitter(),
+            tally.mean_bias(),
+        ];
         assert_eq!((figures, more, tally.held()), ([0.0; 5], [0.0; 4], 1.0));
     }
 
@@ -498,6 +573,28 @@ mod tests {
         }
     }
 
+    proptest! {
+        #[test]
+        fn a_vote_takes_over_a_shift_and_the_way(k in 20.0..60.0f64, first in 0u32..180, share in 0.1..0.45f64) {
+            // Shifts of whole strokes, rings that start elsewhere, and strokes that run the other way.
+            let whole = line([100.0, 90.0], [300.0, 90.0]);
+            let back = line([300.0, 90.0], [100.0, 90.0]);
+            let before = [whole.clone(), ring([400.0, 300.0], 90.0)];
+            let around = ring_from([400.0, 300.0], 90.0, first);
+            for after in [[shifted(whole.clone(), k), around.clone()], [back, around]] {
+                let tally = tally_of(&before, &after, &still());
+                prop_assert_eq!(tally.voted_pop(), 0.0);
+            }
+
+            // Of two strokes that are joined the shorter one pops.
+            let cut = 100.0 + (200.0 * share).round();
+            let parts = [line([100.0, 90.0], [cut, 90.0]), line([cut, 90.0], [300.0, 90.0])];
+            let tally = tally_of(&parts, &[whole], &still());
+            prop_assert!((tally.voted_pop() - (cut - 100.0) / 200.0).abs() < 0.02);
+            prop_assert!((tally.pop() - (300.0 - cut) / 200.0).abs() < 0.02);
+        }
+    }
+
     #[test]
     fn what_is_gone_for_a_frame_blinks() {
         let frame = traced(&rows(4));
@@ -520,7 +617,11 @@ mod tests {
         };
         let mut tally = Tally::default();
         tally.add_bias(&around(99.0), &around(100.0));
-        assert!((tally.mean_bias() + 1.0).abs() < 0.02, "{}", tally.mean_bias());
+        assert!(
+            (tally.mean_bias() + 1.0).abs() < 0.02,
+            "{}",
+            tally.mean_bias()
+        );
     }
 
     #[test]

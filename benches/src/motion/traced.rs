@@ -22,6 +22,8 @@ pub struct Sample {
     pub along: [f64; 2],
     /// In the world.
     pub world: DVec3,
+    /// Distance from the eye along the view axis.
+    pub depth: f64,
     /// Texture coordinate as drawn, in pixels.
     pub u: f64,
     /// Way from the start of the stroke, in pixels.
@@ -101,14 +103,10 @@ impl Traced {
         };
         let pieces = points.windows(2).map(|pair| (&pair[0], &pair[1]));
         for (from, to) in pieces.chain(around) {
-            walk.piece(from, to, lens, |place, world, u, station| {
+            walk.piece(from, to, lens, |sample| {
                 self.samples.push(Sample {
-                    place,
-                    along: [0.0; 2],
-                    world,
-                    u,
-                    station,
                     stroke: number,
+                    ..sample
                 });
             });
         }
@@ -135,7 +133,8 @@ impl Traced {
             })
         });
         let size = self.size;
-        self.ends.extend(ends.filter(|end| is_inside(end.place, size)));
+        self.ends
+            .extend(ends.filter(|end| is_inside(end.place, size)));
     }
 
     /// Gives the samples from `first` on the direction from the one before to the one after.
@@ -163,8 +162,7 @@ impl Traced {
 
 /// Whether a place lies in the picture, away from its border.
 pub fn is_inside(place: [f64; 2], size: [u32; 2]) -> bool {
-    let is_between =
-        |i: usize| (BORDER_PX..f64::from(size[i]) - BORDER_PX).contains(&place[i]);
+    let is_between = |i: usize| (BORDER_PX..f64::from(size[i]) - BORDER_PX).contains(&place[i]);
     is_between(0) && is_between(1)
 }
 
@@ -184,7 +182,7 @@ impl Walk {
         from: &StrokePoint,
         to: &StrokePoint,
         lens: Lens,
-        mut take: impl FnMut([f64; 2], DVec3, f64, f64),
+        mut take: impl FnMut(Sample),
     ) {
         let length = distance(from.position, to.position);
         let [a, b] = [from, to].map(|point| wide(point.world));
@@ -193,8 +191,16 @@ impl Walk {
             let share = (station - self.gone) / length;
             let place =
                 [0, 1].map(|i| from.position[i] + share * (to.position[i] - from.position[i]));
-            let world = a.lerp(b, lens.world_share(share, [from.depth, to.depth]));
-            take(place, world, from.u + share * length, station);
+            let in_world = lens.world_share(share, [from.depth, to.depth]);
+            take(Sample {
+                place,
+                along: [0.0; 2],
+                world: a.lerp(b, in_world),
+                depth: from.depth + in_world * (to.depth - from.depth),
+                u: from.u + share * length,
+                station,
+                stroke: 0,
+            });
             self.taken += 1;
         }
         self.gone += length;
@@ -209,14 +215,19 @@ mod tests {
     #[test]
     fn samples_lie_a_pixel_apart_on_their_stroke() {
         let traced = Traced::new(
-            &[line([100.0, 50.0], [140.5, 50.0]), ring([300.0, 200.0], 40.0)],
+            &[
+                line([100.0, 50.0], [140.5, 50.0]),
+                ring([300.0, 200.0], 40.0),
+            ],
             SIZE,
             Lens::Parallel,
         );
         let [[from, to], [start, end]] = [0, 1].map(|i| traced.strokes[i].samples);
         assert_eq!(to - from, 41);
         for (i, sample) in traced.samples[from..to].iter().enumerate() {
-            assert!((sample.place[0] - 100.0 - i as f64).abs() < 1e-9 && sample.along == [1.0, 0.0]);
+            assert!(
+                (sample.place[0] - 100.0 - i as f64).abs() < 1e-9 && sample.along == [1.0, 0.0]
+            );
             assert!((sample.u - sample.station).abs() < 1e-9);
         }
         let around = std::f64::consts::TAU * 40.0;

@@ -29,7 +29,9 @@ fn main() -> Outcome<()> {
         let path = file.map(|(file, clip)| (arguments.models.join(file), clip));
         let name = file.map_or("bumpy_ball", |(file, _)| file);
         let films = Film::ALL.into_iter();
-        let mut films = films.filter(|film| arguments.takes(name, film.name())).peekable();
+        let mut films = films
+            .filter(|film| arguments.takes(name, film.name()))
+            .peekable();
         if films.peek().is_none() {
             continue;
         }
@@ -40,7 +42,10 @@ fn main() -> Outcome<()> {
             continue;
         }
         let mut subject = Subject::new(path.as_ref().map(|(path, clip)| (path.as_path(), *clip)))?;
-        for film in films.filter(|film| subject.plays(*film)).collect::<Vec<_>>() {
+        for film in films
+            .filter(|film| subject.plays(*film))
+            .collect::<Vec<_>>()
+        {
             eprintln!("{} {}", subject.name, film.name());
             let frames = subject.frame_count(film).min(arguments.frames_most);
             let pictures = arguments.pictures.as_deref();

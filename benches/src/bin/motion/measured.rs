@@ -93,7 +93,11 @@ pub fn measured(
     }
     for (name, svg) in shown {
         let folder = pictures.unwrap_or(Path::new("."));
-        let name = format!("{}_{}_{name}.svg", subject.name, film.name().replace(' ', "_"));
+        let name = format!(
+            "{}_{}_{name}.svg",
+            subject.name,
+            film.name().replace(' ', "_")
+        );
         write_picture(&folder.join(name), &svg)?;
     }
     Ok(Measured {
@@ -115,12 +119,23 @@ fn show(
     frame: usize,
     [last, next]: [&Shot; 2],
 ) {
-    let pops = causes.pops.iter().map(|(cause, count)| (format!("pop_{cause:?}"), count));
-    let losses = causes.losses.iter().map(|(cause, count)| (format!("loss_{cause:?}"), count));
+    let pops = causes
+        .pops
+        .iter()
+        .map(|(cause, count)| (format!("pop_{cause:?}"), count));
+    let losses = causes
+        .losses
+        .iter()
+        .map(|(cause, count)| (format!("loss_{cause:?}"), count));
     for (name, count) in pops.chain(losses) {
         let (_, pair, place) = count.largest;
         if pair + 1 == frame {
-            let stages = [&last.stages.drawn, &next.stages.drawn, &last.stages.raw, &next.stages.raw];
+            let stages = [
+                &last.stages.drawn,
+                &next.stages.drawn,
+                &last.stages.raw,
+                &next.stages.raw,
+            ];
             let name = name.replace(['(', ')'], "_");
             shown.insert(name, panels(&stages, place, frame));
         }

@@ -31,7 +31,13 @@ pub fn table() {
          Pops are those of the arc length, before any transfer from frame to frame; a vote of the frame before brought \
          those of the emulation to 0 to 3.5 %.\n"
     );
-    let mut table = Table::new(["mesh, triangles", "method", "drift, px", "lost, %", "pop, %"]);
+    let mut table = Table::new([
+        "mesh, triangles",
+        "method",
+        "drift, px",
+        "lost, %",
+        "pop, %",
+    ]);
     for (mesh, method, drift, lost, pop) in FIGURES {
         let cells = [
             method.to_owned(),

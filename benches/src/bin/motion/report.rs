@@ -94,8 +94,9 @@ pub fn heading() {
         "A frame's strokes, sampled a pixel apart, are carried to the next frame by the surface, and compared with what \
          is drawn there. **drift**: how far an end lies from the nearest end, median (at most 40 px each); **lost**: \
          ends with none within 8 px; **born**: ends of the next frame that come from none. **slide**: how far the \
-         texture coordinate of a sample moves, median; **pop**: samples where it moves by more than 8 px; **same id**: \
-         samples whose stroke keeps its identity. **flicker**: samples with no ink within 6 px although a line is still \
+         texture coordinate of a sample moves, median; **pop**: samples where it moves by more than 8 px; **voted**: \
+         the same if every stroke took over its texture from the frame before as a whole, by the median of its samples; \
+         **same id**: samples whose stroke keeps its identity. **flicker**: samples with no ink within 6 px although a line is still \
          to be drawn there, that is, within 3 px of a raw line; **point**: the same where their point of the surface is \
          still seen, whether or not a line is there, as where a fold flattens; **blink**: samples without ink in one \
          frame that have some in the next. **jitter**: root of the mean squared offset across the line, without its \
@@ -119,6 +120,7 @@ pub fn sequences(rows: &[Measured]) {
             "born, %",
             "slide, px",
             "pop, %",
+            "voted, %",
             "same id, %",
             "flicker, %",
             "point, %",
@@ -136,6 +138,7 @@ pub fn sequences(rows: &[Measured]) {
                 percent(tally.born_share()),
                 format!("{:.2}", tally.slide()),
                 percent(tally.pop()),
+                percent(tally.voted_pop()),
                 percent(tally.held()),
                 format!("{:.3}", 100.0 * tally.flicker()),
                 format!("{:.3}", 100.0 * tally.gone_point_share()),
@@ -164,7 +167,10 @@ pub fn verdict(rows: &[Measured]) {
         let Some((value, worst)) = judged.iter().max_by(|a, b| a.0.total_cmp(&b.0)) else {
             continue;
         };
-        let met = judged.iter().filter(|(value, _)| *value <= bar.most).count();
+        let met = judged
+            .iter()
+            .filter(|(value, _)| *value <= bar.most)
+            .count();
         let films = bar.films.iter().map(|film| &film.name()[..2]);
         let cells = [
             films.collect::<Vec<_>>().join(" "),
@@ -192,11 +198,27 @@ pub fn causes(rows: &[Measured]) {
         let ends = rows.iter().map(|row| row.tally.drifts.len()).sum();
         let gone = rows.iter().map(|row| row.tally.carried).sum();
         println!("### {}\n", film.name());
-        let pops = rows.iter().map(|row| (row.model.as_str(), &row.causes.pops));
-        table("why textures pop", "samples", matches, merged(pops, words::of_pop));
-        let losses = rows.iter().map(|row| (row.model.as_str(), &row.causes.losses));
-        table("why ends are lost", "ends", ends, merged(losses, words::of_loss));
-        let gone_of = rows.iter().map(|row| (row.model.as_str(), &row.causes.gone));
+        let pops = rows
+            .iter()
+            .map(|row| (row.model.as_str(), &row.causes.pops));
+        table(
+            "why textures pop",
+            "samples",
+            matches,
+            merged(pops, words::of_pop),
+        );
+        let losses = rows
+            .iter()
+            .map(|row| (row.model.as_str(), &row.causes.losses));
+        table(
+            "why ends are lost",
+            "ends",
+            ends,
+            merged(losses, words::of_loss),
+        );
+        let gone_of = rows
+            .iter()
+            .map(|row| (row.model.as_str(), &row.causes.gone));
         let word = |absence| words::of_absence(absence).to_owned();
         table("why ink goes", "samples", gone, merged(gone_of, word));
     }
@@ -247,7 +269,11 @@ fn table(title: &str, what: &str, whole: usize, causes: Vec<Merged<'_>>) {
             cause.count.to_string(),
             format!("{:.3}", 100.0 * share(cause.count, whole)),
             cause.events.to_string(),
-            format!("{}, {:.0} %", cause.most.1, 100.0 * share(cause.most.0, cause.count)),
+            format!(
+                "{}, {:.0} %",
+                cause.most.1,
+                100.0 * share(cause.most.0, cause.count)
+            ),
             format!("{samples}: {model}, frame {}, ({x:.0}, {y:.0})", pair + 1),
         ];
         table.add(cause.words, cells);

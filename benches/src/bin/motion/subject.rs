@@ -115,7 +115,9 @@ impl Subject {
         let wanted = file.and_then(|(_, clip)| clip);
         let clip = wanted.map(|wanted| {
             let found = scene.clips.iter().find(|clip| clip.name == wanted);
-            found.cloned().ok_or_else(|| format!("{name} has no clip {wanted}"))
+            found
+                .cloned()
+                .ok_or_else(|| format!("{name} has no clip {wanted}"))
         });
 
         // Settle how it is drawn.
@@ -159,7 +161,11 @@ impl Subject {
             self.lines.set_pose(&self.scene)?;
         }
         let (shape, tree, positions) = match before.filter(|_| film != Film::Clip) {
-            Some(shot) => (shot.shape.clone(), shot.tree.clone(), shot.positions.clone()),
+            Some(shot) => (
+                shot.shape.clone(),
+                shot.tree.clone(),
+                shot.positions.clone(),
+            ),
             None => {
                 let shape = self.lines.shape().clone();
                 let positions = shape.positions.clone();
@@ -208,9 +214,15 @@ impl Subject {
 fn sphere_of(lines: &LineModel) -> (Vec3, f32) {
     let shape = lines.shape();
     let corners = shape.faces.iter().flatten();
-    let points = || corners.clone().map(|v| Vec3::from(shape.positions[*v as usize]));
+    let points = || {
+        corners
+            .clone()
+            .map(|v| Vec3::from(shape.positions[*v as usize]))
+    };
     let (low, high) = npr_core::camera::bounds_of(points());
     let middle = (Vec3::from(low) + Vec3::from(high)) / 2.0;
-    let radius = points().map(|point| point.distance(middle)).fold(0.0, f32::max);
+    let radius = points()
+        .map(|point| point.distance(middle))
+        .fold(0.0, f32::max);
     (middle, radius)
 }

@@ -1,6 +1,6 @@
 //! Causes in words.
 
-use npr_benches::motion::causes::{Absence, Joint, Loss, Pop};
+use npr_benches::motion::causes::{Absence, Joint, Loss, Pop, Rule};
 
 /// Why a line is not there.
 pub fn of_absence(absence: Absence) -> &'static str {
@@ -22,6 +22,17 @@ pub fn of_joint(joint: Joint) -> &'static str {
     }
 }
 
+/// Why ends are joined in one frame alone.
+fn of_rule(rule: Rule) -> &'static str {
+    match rule {
+        Rule::Depth => "too far apart in depth in one frame",
+        Rule::Apart => "too far apart in the picture in one frame",
+        Rule::Turn => "not straight enough in one frame",
+        Rule::Partner => "what lies before goes on another way in one frame",
+        Rule::Other => "other reasons in one frame",
+    }
+}
+
 /// Why a texture pops.
 pub fn of_pop(pop: Pop) -> String {
     match pop {
@@ -29,8 +40,10 @@ pub fn of_pop(pop: Pop) -> String {
         Pop::OtherLine => "a stroke of another kind or surface".to_owned(),
         Pop::Head => "a ring starts elsewhere".to_owned(),
         Pop::Ring(joint) => format!("a ring opens or closes: {}", of_joint(joint)),
+        Pop::Rule(rule) => format!("ends that meet in both frames: {}", of_rule(rule)),
         Pop::Joint(joint) => format!("more or less before its start: {}", of_joint(joint)),
         Pop::Start(absence) => format!("its start comes or goes: {}", of_absence(absence)),
+        Pop::Elsewhere => "neither start lies on the other stroke".to_owned(),
         Pop::Stretched => "the way from its start is longer or shorter".to_owned(),
     }
 }
