@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use npr_vector::mesh_lines::{DEPTH_SHARE, FACING_PX, STRAIGHT_COS, TOUCHING_PX};
 
 use super::near::distance;
-use super::tally::{JUMP_PX, MATCH_PX, Match, Pair, dot};
+use super::tally::{JUMP_PX, MATCH_PX, Match, Pair, dot, voted_slides};
 use super::traced::{Line, Sample, Traced};
 
 /// Distance from a place up to which a raw end belongs to it, in pixels: raw lines are not smoothed yet.
@@ -135,6 +135,8 @@ pub struct Causes {
     pub pairs: usize,
     /// Matches whose texture pops.
     pub pops: Counts<Pop>,
+    /// Matches whose texture would pop although strokes took over their textures as a whole.
+    pub voted_pops: Counts<Pop>,
     /// Ends that are lost.
     pub losses: Counts<Loss>,
     /// Carried samples that are gone.
@@ -159,6 +161,7 @@ impl Causes {
         let number = self.pairs;
         self.pairs += 1;
         frames.pops(number, &mut self.pops);
+        frames.voted_pops(number, &mut self.voted_pops);
         frames.losses(number, &mut self.losses);
         for sample in &frames.pair.gone {
             let sample = &frames.pair.carried[*sample].sample;
@@ -186,54 +189,87 @@ impl Frames<'_> {
             groups.entry(strokes).or_default().push(found);
         }
         for (strokes, group) in groups {
-            let start = after.drawn.strokes[strokes[1]].samples[0];
-            let place = after.drawn.samples[start].place;
-            add(
-                counts,
-                self.pop(strokes, &group),
-                group.len(),
-                (number, place),
-            );
+            let (pop, place) = self.pop(strokes, &group);
+            add(counts, pop, group.len(), (number, place));
         }
     }
 
-    /// Why the samples of two strokes that are one pop.
-    fn pop(&self, [a, b]: [usize; 2], group: &[&Match]) -> Pop {
+    /// Counts what would pop although strokes took over their textures as a whole: the lesser parts of strokes that
+    /// were several.
+    fn voted_pops(&self, number: usize, counts: &mut Counts<Pop>) {
+        // Gather the strokes of the frame before that went into each stroke, and how much of each pops.
+        let [before, after] = self.stages.map(|stages| &stages.drawn);
+        let slides = voted_slides(before, after, &self.pair.matches);
+        let mut sources: BTreeMap<usize, BTreeMap<usize, [usize; 2]>> = BTreeMap::new();
+        for (found, slide) in self.pair.matches.iter().zip(slides) {
+            let stroke = after.samples[found.after].stroke;
+            let source = before.samples[found.before].stroke;
+            let parts = sources.entry(stroke).or_default();
+            parts.entry(source).or_default()[usize::from(slide > JUMP_PX)] += 1;
+        }
+
+        // Compare each part with the one whose texture goes on.
+        for (stroke, parts) in sources {
+            let Some((main, _)) = parts.iter().max_by_key(|(_, [held, _])| *held) else {
+                continue;
+            };
+            for (source, [_, popped]) in parts.iter().filter(|(_, [_, popped])| *popped > 0) {
+                let line = &after.strokes[stroke];
+                let was = &before.strokes[*source];
+                let (start, end) = nearest_tips(before, *source, *main);
+                let place = self.carried_place(&start);
+                let pop = match () {
+                    () if (was.kind, was.surface) != (line.kind, line.surface) => Pop::OtherLine,
+                    () if source == main => Pop::Stretched,
+                    () => self.joined(self.joint(place), &start, &end),
+                };
+                add(counts, pop, *popped, (number, place));
+            }
+        }
+    }
+
+    /// Where a sample of the frame before is carried to, by the nearest carried one.
+    fn carried_place(&self, sample: &Sample) -> [f64; 2] {
+        let [from, to] = self.stages[0].drawn.strokes[sample.stroke].samples;
+        let number = (from + sample.station as usize).min(to - 1);
+        self.pair.carried[number].sample.place
+    }
+
+    /// Why the samples of two strokes that are one pop, and where in the later frame.
+    fn pop(&self, [a, b]: [usize; 2], group: &[&Match]) -> (Pop, [f64; 2]) {
         // Compare what the strokes are.
         let [before, after] = self.stages.map(|stages| &stages.drawn);
         let [was, is] = [&before.strokes[a], &after.strokes[b]];
+        let [from, to] = [was, is].map(|line| line.samples[0]);
+        let start = after.samples[to].place;
         if (was.kind, was.surface) != (is.kind, is.surface) {
-            return Pop::OtherLine;
+            let middle = after.samples[group[group.len() / 2].after].place;
+            return (Pop::OtherLine, middle);
+        }
+        let is_turned = group.iter().map(|found| self.turn(found)).sum::<f64>() < 0.0;
+        if is_turned && was.closed == is.closed {
+            return (Pop::Reversed, start);
         }
         if was.closed && is.closed {
-            let way: f64 = group.iter().map(|found| self.turn(found)).sum();
-            return if way < 0.0 { Pop::Reversed } else { Pop::Head };
+            return (Pop::Head, start);
         }
-        let [from, to] = [was, is].map(|line| line.samples[0]);
         let first = self.pair.carried[from].sample.place;
         if was.closed != is.closed {
             // The place of the open one's ends is where the ring is parted.
-            let place = if is.closed {
-                first
-            } else {
-                after.samples[to].place
-            };
-            return Pop::Ring(self.joint(place));
-        }
-        if group.iter().map(|found| self.turn(found)).sum::<f64>() < 0.0 {
-            return Pop::Reversed;
+            let place = if is.closed { first } else { start };
+            return (Pop::Ring(self.joint(place)), place);
         }
 
         // Find each start on the other stroke.
         let on_later = nearest_of(after.samples[to..is.samples[1]].iter(), first);
         let earlier = &self.pair.carried[from..was.samples[1]];
         let earlier = earlier.iter().map(|carried| &carried.sample);
-        let on_earlier = nearest_of(earlier, after.samples[to].place);
+        let on_earlier = nearest_of(earlier, start);
         match (on_later, on_earlier) {
-            (Some(station), _) if station > JUMP_PX => self.grown(a, is, station, first),
-            (_, Some(station)) if station > JUMP_PX => self.shrunk(b, was, station),
-            (Some(_), _) | (_, Some(_)) => Pop::Stretched,
-            (None, None) => Pop::Elsewhere,
+            (Some(station), _) if station > JUMP_PX => (self.grown(a, is, station, first), first),
+            (_, Some(station)) if station > JUMP_PX => (self.shrunk(b, was, station), start),
+            (Some(_), _) | (_, Some(_)) => (Pop::Stretched, start),
+            (None, None) => (Pop::Elsewhere, start),
         }
     }
 
@@ -254,7 +290,9 @@ impl Frames<'_> {
             Some(self.pair.carried[found.0].sample.stroke)
         };
         if let Some(other) = most_of(front.iter().map(stroke_at)) {
-            return self.joined(self.joint(start), &before.drawn, [a, other]);
+            let own = tip(&before.drawn, a, true);
+            let end = nearest_tip(&before.drawn, other, own.place);
+            return self.joined(self.joint(start), &own, &end);
         }
 
         // What was not there before is looked up where it would have been: as far off as the frame moved here.
@@ -284,16 +322,17 @@ impl Frames<'_> {
             Some(after.drawn.samples[found.0].stroke)
         };
         if let Some(other) = most_of(front().map(stroke_at)) {
-            let start = after.drawn.samples[after.drawn.strokes[b].samples[0]].place;
-            return self.joined(self.joint(start), &after.drawn, [b, other]);
+            let own = tip(&after.drawn, b, true);
+            let end = nearest_tip(&after.drawn, other, own.place);
+            return self.joined(self.joint(own.place), &own, &end);
         }
         Pop::Start(self.most_absent(front()))
     }
 
-    /// A pop by what lies before the start of stroke `own`, in the frame in which that is the stroke `other`.
-    fn joined(&self, joint: Joint, parted: &Traced, [own, other]: [usize; 2]) -> Pop {
+    /// A pop where two strokes are one in one of both frames, by their ends in the frame that parts them.
+    fn joined(&self, joint: Joint, own: &Sample, other: &Sample) -> Pop {
         match joint {
-            Joint::Rule => Pop::Rule(rule(parted, [own, other])),
+            Joint::Rule => Pop::Rule(rule(own, other)),
             _ => Pop::Joint(joint),
         }
     }
@@ -379,28 +418,42 @@ impl Frames<'_> {
     }
 }
 
-/// Why the start of a stroke is not joined with the nearer end of another one.
-fn rule(parted: &Traced, [own, other]: [usize; 2]) -> Rule {
-    let start = tip(parted, own, true);
-    let ends = [true, false].map(|is_start| tip(parted, other, is_start));
-    let away = |end: &Sample| distance(end.place, start.place);
-    let end = match away(&ends[0]) <= away(&ends[1]) {
-        true => &ends[0],
-        false => &ends[1],
-    };
-    let depth = start.depth.min(end.depth);
-    let across = [0, 1].map(|i| end.place[i] - start.place[i]);
-    let gap = away(end);
-    let aims = [dot(across, start.along), -dot(across, end.along)]
-        .iter()
-        .all(|ahead| *ahead >= STRAIGHT_COS * gap);
+/// Why two ends are not joined; both look out of their strokes.
+fn rule(own: &Sample, other: &Sample) -> Rule {
+    let depth = own.depth.min(other.depth);
+    let gap = distance(own.place, other.place);
+    let across = [0, 1].map(|i| other.place[i] - own.place[i]);
+    let ahead = [dot(across, own.along), -dot(across, other.along)];
+    let aims = ahead.iter().all(|ahead| *ahead >= STRAIGHT_COS * gap);
     match () {
-        () if parted.strokes[other].closed || gap > 2.0 * FACING_PX => Rule::Partner,
-        () if (start.depth - end.depth).abs() > DEPTH_SHARE * depth => Rule::Depth,
+        () if gap > 2.0 * FACING_PX => Rule::Partner,
+        () if (own.depth - other.depth).abs() > DEPTH_SHARE * depth => Rule::Depth,
         () if gap > FACING_PX => Rule::Apart,
-        () if -dot(start.along, end.along) < STRAIGHT_COS => Rule::Turn,
+        () if -dot(own.along, other.along) < STRAIGHT_COS => Rule::Turn,
         () if gap > TOUCHING_PX && !aims => Rule::Turn,
         () => Rule::Other,
+    }
+}
+
+/// The end of a stroke that is nearer to a place.
+fn nearest_tip(traced: &Traced, stroke: usize, place: [f64; 2]) -> Sample {
+    let [start, end] = [true, false].map(|is_start| tip(traced, stroke, is_start));
+    match distance(start.place, place) <= distance(end.place, place) {
+        true => start,
+        false => end,
+    }
+}
+
+/// The ends of two strokes that are nearest to each other.
+fn nearest_tips(traced: &Traced, a: usize, b: usize) -> (Sample, Sample) {
+    let pairs = [true, false].map(|is_start| {
+        let end = tip(traced, a, is_start);
+        (end, nearest_tip(traced, b, end.place))
+    });
+    let away = |(a, b): &(Sample, Sample)| distance(a.place, b.place);
+    match away(&pairs[0]) <= away(&pairs[1]) {
+        true => pairs[0],
+        false => pairs[1],
     }
 }
 
@@ -590,6 +643,25 @@ mod tests {
         let mut stroke = stroke.clone();
         stroke.points.iter_mut().for_each(|point| point.u += 20.0);
         stroke
+    }
+
+    #[test]
+    fn only_what_is_joined_pops_after_a_vote() {
+        let whole = line([100.0, 90.0], [300.0, 90.0]);
+        let parts = [
+            line([100.0, 90.0], [160.0, 90.0]),
+            line([160.0, 90.0], [300.0, 90.0]),
+        ];
+        let (one, two) = (plain(std::slice::from_ref(&whole)), plain(&parts));
+        let joined = staged(std::slice::from_ref(&whole), &parts);
+        let voted = |before: &Stages, after: &Stages| {
+            let causes = causes_of(before, after, true).voted_pops.into_iter();
+            let counts = causes.map(|(pop, count)| (pop, count.count));
+            counts.collect::<Vec<_>>()
+        };
+        assert_eq!(voted(&two, &one), [(Pop::Joint(Joint::Gap), 60)]);
+        assert_eq!(voted(&two, &joined), [(Pop::Rule(Rule::Other), 60)]);
+        assert_eq!(voted(&one, &two), []);
     }
 
     #[test]

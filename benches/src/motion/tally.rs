@@ -148,20 +148,22 @@ fn matches((before, carried, near): (&Traced, &[Carried], &Near), after: &Traced
 }
 
 /// How far textures still slide where every stroke takes over its texture as a whole, in pixels: the way that it runs
-/// and the shift that suit most of what it was matched with [Kalnins et al. 2003]. A slide for every match.
+/// and the shift that suit most of what it was matched with [Kalnins et al. 2003]. A slide for every match, in their order.
 ///
 /// Only the step from one frame to the next is told: strokes that are joined have one texture from then on.
 pub fn voted_slides(before: &Traced, after: &Traced, matches: &[Match]) -> Vec<f64> {
-    let mut of_strokes: BTreeMap<usize, Vec<&Match>> = BTreeMap::new();
-    for found in matches {
+    let mut of_strokes: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for (number, found) in matches.iter().enumerate() {
         let stroke = after.samples[found.after].stroke;
-        of_strokes.entry(stroke).or_default().push(found);
+        of_strokes.entry(stroke).or_default().push(number);
     }
-    let slides = of_strokes.into_iter().flat_map(|(stroke, group)| {
+    let mut slides = vec![0.0; matches.len()];
+    for (stroke, group) in of_strokes {
         // Decide which way the texture runs.
-        let pairs = group
-            .iter()
-            .map(|found| (&before.samples[found.before], &after.samples[found.after]));
+        let pairs = group.iter().map(|number| {
+            let found = &matches[*number];
+            (&before.samples[found.before], &after.samples[found.after])
+        });
         let turns = pairs
             .clone()
             .map(|(was, is)| dot(was.along, is.along).signum());
@@ -177,9 +179,11 @@ pub fn voted_slides(before: &Traced, after: &Traced, matches: &[Match]) -> Vec<f
         };
         let shifts: Vec<f64> = shifts.into_iter().map(near_first).collect();
         let shift = median(shifts.iter().copied());
-        shifts.into_iter().map(move |own| (own - shift).abs())
-    });
-    slides.collect()
+        for (number, own) in group.into_iter().zip(shifts) {
+            slides[number] = (own - shift).abs();
+        }
+    }
+    slides
 }
 
 /// How far a place lies to the left of a stroke at a sample of it, in pixels.

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use npr_benches::machine;
-use npr_benches::motion::causes::{Count, Counts};
+use npr_benches::motion::causes::Counts;
 use npr_benches::motion::film::Film;
 use npr_benches::motion::tally::{Tally, share};
 use npr_benches::table::Table;
@@ -184,99 +184,98 @@ pub fn verdict(rows: &[Measured]) {
     println!("{table}");
 }
 
-/// Why ends are lost and textures pop, for each sequence of all models together.
+/// Why ends are lost and textures pop, for each sequence.
 pub fn causes(rows: &[Measured]) {
     println!("## Where it comes from\n");
     println!(
         "Raw lines are runs of one kind on one surface, cut where something hides them. Every event is looked up in \
-         the raw lines of both frames, and in what is drawn with stubs. An event is a pair of strokes that are one, or \
-         an end. The largest is told with its model, the number of the later frame, and its place in pixels.\n"
+         the raw lines of both frames, and in what is drawn with stubs. Where raw lines end at a place in both frames, \
+         the strokes of the frame that parts them tell why they may not be joined there. Figures are shares of all \
+         samples, or ends, of a model, in per cent; the example is the largest event: its samples, model, number of the \
+         later frame, and place in pixels. \"After a vote\" is what still pops where strokes take over their textures as \
+         a whole: the lesser ones of those that are joined.\n"
     );
     for film in Film::ALL.into_iter().filter(|film| *film != Film::Still) {
         let rows: Vec<&Measured> = rows.iter().filter(|row| row.film == film).collect();
-        let matches = rows.iter().map(|row| row.tally.slides.len()).sum();
-        let ends = rows.iter().map(|row| row.tally.drifts.len()).sum();
-        let gone = rows.iter().map(|row| row.tally.carried).sum();
         println!("### {}\n", film.name());
-        let pops = rows
-            .iter()
-            .map(|row| (row.model.as_str(), &row.causes.pops));
+        let matches = |row: &Measured| row.tally.slides.len();
         table(
-            "why textures pop",
-            "samples",
+            "pops",
+            &rows,
             matches,
-            merged(pops, words::of_pop),
+            |row| &row.causes.pops,
+            words::of_pop,
         );
-        let losses = rows
-            .iter()
-            .map(|row| (row.model.as_str(), &row.causes.losses));
         table(
-            "why ends are lost",
-            "ends",
-            ends,
-            merged(losses, words::of_loss),
+            "pops after a vote",
+            &rows,
+            matches,
+            |row| &row.causes.voted_pops,
+            words::of_pop,
         );
-        let gone_of = rows
-            .iter()
-            .map(|row| (row.model.as_str(), &row.causes.gone));
+        let ends = |row: &Measured| row.tally.drifts.len();
+        table(
+            "ends lost",
+            &rows,
+            ends,
+            |row| &row.causes.losses,
+            words::of_loss,
+        );
+        let carried = |row: &Measured| row.tally.carried;
         let word = |absence| words::of_absence(absence).to_owned();
-        table("why ink goes", "samples", gone, merged(gone_of, word));
+        table("ink gone", &rows, carried, |row| &row.causes.gone, word);
     }
 }
 
-/// What happened in all models, with the one that holds most of it.
-struct Merged<'a> {
-    words: String,
-    count: usize,
-    events: usize,
-    most: (usize, &'a str),
-    largest: (&'a str, Count),
-}
-
-fn merged<'a, T: Copy + Ord + 'a>(
-    rows: impl Iterator<Item = (&'a str, &'a Counts<T>)>,
+/// A table of causes with a column for every model, unless nothing happened at all.
+fn table<T: Copy + Ord>(
+    title: &str,
+    rows: &[&Measured],
+    whole: impl Fn(&Measured) -> usize,
+    counts: impl Fn(&Measured) -> &Counts<T>,
     words: impl Fn(T) -> String,
-) -> Vec<Merged<'a>> {
-    let mut all: BTreeMap<T, Merged<'a>> = BTreeMap::new();
-    for (model, counts) in rows {
-        for (cause, count) in counts {
-            let entry = all.entry(*cause).or_insert_with(|| Merged {
-                words: words(*cause),
-                count: 0,
-                events: 0,
-                most: (0, model),
-                largest: (model, *count),
-            });
-            entry.count += count.count;
-            entry.events += count.events;
-            entry.most = entry.most.max((count.count, model));
-            if count.largest.0 > entry.largest.1.largest.0 {
-                entry.largest = (model, *count);
-            }
-        }
+) {
+    // Order causes by how much there is of them.
+    let mut sums: BTreeMap<T, usize> = BTreeMap::new();
+    for (cause, count) in rows.iter().flat_map(|row| counts(row)) {
+        *sums.entry(*cause).or_default() += count.count;
     }
-    let mut all: Vec<Merged<'a>> = all.into_values().collect();
-    all.sort_by_key(|merged| std::cmp::Reverse(merged.count));
-    all
-}
+    let all: usize = rows.iter().map(|row| whole(row)).sum();
+    let mut sums: Vec<(T, usize)> = sums.into_iter().collect();
+    sums.sort_by_key(|(_, sum)| std::cmp::Reverse(*sum));
+    if sums.is_empty() {
+        return;
+    }
 
-fn table(title: &str, what: &str, whole: usize, causes: Vec<Merged<'_>>) {
-    let mut table = Table::new([title, what, "of all, %", "events", "most of it", "largest"]);
-    for cause in causes {
-        let (model, count) = cause.largest;
-        let (samples, pair, [x, y]) = count.largest;
-        let cells = [
-            cause.count.to_string(),
-            format!("{:.3}", 100.0 * share(cause.count, whole)),
-            cause.events.to_string(),
-            format!(
-                "{}, {:.0} %",
-                cause.most.1,
-                100.0 * share(cause.most.0, cause.count)
-            ),
-            format!("{samples}: {model}, frame {}, ({x:.0}, {y:.0})", pair + 1),
-        ];
-        table.add(cause.words, cells);
+    // Give every cause a row, with its largest event.
+    let models = rows.iter().map(|row| row.model.as_str());
+    let mut table = Table::new(
+        [title, "all", "events"]
+            .into_iter()
+            .chain(models)
+            .chain(["example"]),
+    );
+    let percent = |part: usize, whole: usize| format!("{:.3}", 100.0 * share(part, whole));
+    for (cause, sum) in sums {
+        let of = |row: &&&Measured| counts(row).get(&cause).copied();
+        let events: usize = rows
+            .iter()
+            .filter_map(|row| of(&row))
+            .map(|count| count.events)
+            .sum();
+        let mut cells = vec![percent(sum, all), events.to_string()];
+        cells.extend(
+            rows.iter()
+                .map(|row| percent(of(&row).map_or(0, |count| count.count), whole(row))),
+        );
+        let largest = rows
+            .iter()
+            .filter_map(|row| Some((of(&row)?.largest, &row.model)));
+        let largest = largest.max_by_key(|((samples, ..), _)| *samples);
+        cells.extend(largest.map(|((samples, pair, [x, y]), model)| {
+            format!("{samples}, {model}, frame {}, ({x:.0}, {y:.0})", pair + 1)
+        }));
+        table.add(words(cause), cells);
     }
     println!("{table}");
 }

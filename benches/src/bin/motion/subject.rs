@@ -11,7 +11,7 @@ use npr_benches::motion::traced::{Sample, Traced};
 use npr_benches::solid::bumpy_ball;
 use npr_core::camera::Camera;
 use npr_render::{LineModel, LineModelOptions, LineOptions};
-use npr_scene::{Clip, LoadOptions, Scene, load};
+use npr_scene::{Clip, LoadOptions, Pose, Scene, load};
 use npr_stylesheet::Style;
 use npr_vector::mesh_lines::bvh::{FaceTree, Sight};
 use npr_vector::project::Projector;
@@ -154,9 +154,16 @@ impl Subject {
     ///
     /// Whatever posing and drawing say.
     pub fn shot(&mut self, film: Film, frame: usize, before: Option<&Shot>) -> Outcome<Shot> {
-        // Pose the model.
-        if let (Film::Clip, Some(clip)) = (film, &self.clip) {
-            let pose = self.scene.pose_at(clip, Film::time_s(frame));
+        // Pose the model; other sequences show it at rest.
+        if let Some(clip) = self
+            .clip
+            .as_ref()
+            .filter(|_| film == Film::Clip || before.is_none())
+        {
+            let pose = match film {
+                Film::Clip => self.scene.pose_at(clip, Film::time_s(frame)),
+                _ => Pose::default(),
+            };
             self.scene.set_pose(&pose)?;
             self.lines.set_pose(&self.scene)?;
         }
