@@ -538,7 +538,7 @@ mod tests {
         #[test]
         fn lines_beside_the_carried_ones_jitter(k in 0.0..2.5f64, count in 1usize..5) {
             let frame = rows(2 * count);
-            let to = |i: usize, y: f64| if i % 2 == 0 { y - k } else { y + k };
+            let to = |i: usize, y: f64| if i.is_multiple_of(2) { y - k } else { y + k };
             let moved = frame.iter().enumerate().map(|(i, row)| {
                 let [x, y] = row.points[0].position;
                 line([x, to(i, y)], [x + 100.0, to(i, y)])

@@ -27,6 +27,7 @@ pub fn panels(frames: &[&Traced], place: [f64; 2], number: usize) -> String {
         side * frames.len() as f64
     );
     for (panel, traced) in frames.iter().enumerate() {
+        // Cut the frame around the place.
         let left = panel as f64 * side;
         let _ = writeln!(
             text,
@@ -35,6 +36,8 @@ pub fn panels(frames: &[&Traced], place: [f64; 2], number: usize) -> String {
             place[0] - HALF_PX,
             place[1] - HALF_PX
         );
+
+        // Draw the strokes that come into it.
         for (stroke, line) in traced.strokes.iter().enumerate() {
             let samples = &traced.samples[line.samples[0]..line.samples[1]];
             let is_near = samples
@@ -54,6 +57,8 @@ pub fn panels(frames: &[&Traced], place: [f64; 2], number: usize) -> String {
                 "<path d=\"M{}{close}\" fill=\"none\" stroke=\"{color}\"/>",
                 path.join(" L")
             );
+
+            // Mark where they start and end.
             let ends = [(samples.first(), color), (samples.last(), "none")];
             for (sample, fill) in ends {
                 let [x, y] = sample.map_or([0.0; 2], |sample| sample.place);
