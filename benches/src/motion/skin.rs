@@ -164,7 +164,9 @@ mod tests {
 
     proptest! {
         #[test]
-        fn points_of_faces_keep_their_shares(face in 0usize..1280, x in 0.0..1.0f64, y in 0.0..1.0f64, up in -5.0..5.0f64) {
+        fn points_of_faces_keep_their_shares(
+            face in 0usize..1280, x in 0.0..1.0f64, y in 0.0..1.0f64, up in -5.0..5.0f64,
+        ) {
             let (faces, rest) = ball();
             let bent: Vec<DVec3> = rest.iter().map(|p| DVec3::new(2.0 * p.x, p.y + up, p.z + p.x)).collect();
             let (x, y) = if x + y > 1.0 { (1.0 - x, 1.0 - y) } else { (x, y) };

@@ -47,7 +47,9 @@ mod tests {
 
     proptest! {
         #[test]
-        fn places_go_with_the_picture(right in -30.0..30.0f64, x in 0.0..600.0f64, y in 0.0..400.0f64, off in -3.0..3.0f64) {
+        fn places_go_with_the_picture(
+            right in -30.0..30.0f64, x in 0.0..600.0f64, y in 0.0..400.0f64, off in -3.0..3.0f64,
+        ) {
             let right = f64::from(right as f32);
             let step = Step { from: sheet_moved(0.0), to: sheet_moved(right), skin: None };
             let world = DVec3::new(x - 320.0, 240.0 - y, 0.0);

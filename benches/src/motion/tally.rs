@@ -11,6 +11,8 @@
 
 use std::collections::BTreeMap;
 
+use npr_vector::stroke::Kind;
+
 use super::near::{Near, distance};
 use super::step::Step;
 use super::traced::{Sample, Traced, is_inside};
@@ -27,8 +29,8 @@ pub const MATCH_PX: f64 = 3.0;
 /// Least cosine between the directions of both, whichever way they run.
 const MATCH_COS: f64 = 0.7;
 
-/// How much farther than the nearest sample one of the same stroke may lie and be taken for it, in pixels: where strokes
-/// meet, two lie at one place.
+/// How much farther than the nearest sample one of the same stroke may lie and be taken for it, in pixels: where
+/// strokes meet, two lie at one place.
 const TIE_PX: f64 = 0.01;
 
 /// Distance from all ink beyond which a sample is gone, in pixels.
@@ -148,7 +150,8 @@ fn matches((before, carried, near): (&Traced, &[Carried], &Near), after: &Traced
 }
 
 /// How far textures still slide where every stroke takes over its texture as a whole, in pixels: the way that it runs
-/// and the shift that suit most of what it was matched with [Kalnins et al. 2003]. A slide for every match, in their order.
+/// and the shift that suit most of what it was matched with [Kalnins et al. 2003]. A slide for every match, in their
+/// order.
 ///
 /// Only the step from one frame to the next is told: strokes that are joined have one texture from then on.
 pub fn voted_slides(before: &Traced, after: &Traced, matches: &[Match]) -> Vec<f64> {
@@ -213,6 +216,8 @@ pub struct Tally {
     pub slides: Vec<f64>,
     /// Matches that would pop although strokes took over their textures as a whole.
     pub voted_pops: usize,
+    /// The same by the kind of the line that is drawn, for ends of the one that was.
+    pub kinds: BTreeMap<Kind, OfKind>,
     /// Matches whose stroke has the same identity in both frames.
     pub same_id: usize,
     /// Samples that were carried to places in the picture.
@@ -227,6 +232,15 @@ pub struct Tally {
     pub offsets: Vec<f64>,
     /// Sum of how far contours are drawn outside of the line, in pixels, and their samples.
     pub bias: (f64, usize),
+}
+
+/// What lines of one kind add up to.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct OfKind {
+    /// Matches, those that pop, and those that pop although strokes took over their textures as a whole.
+    pub matches: [usize; 3],
+    /// Ends, and those of them that are lost.
+    pub ends: [usize; 2],
 }
 
 /// How to tell what of a frame is still to be seen.
@@ -246,8 +260,14 @@ impl Tally {
         // Look for every end in the other frame.
         let there: Vec<[f64; 2]> = after.ends.iter().map(|end| end.place).collect();
         let carried: Vec<[f64; 2]> = pair.ends.iter().map(|(_, place)| *place).collect();
-        let drifts = carried.iter().map(|end| least_distance(*end, &there));
-        self.drifts.extend(drifts);
+        for (number, place) in &pair.ends {
+            let away = least_distance(*place, &there);
+            let kind = before.strokes[before.ends[*number].stroke].kind;
+            let of_kind = self.kinds.entry(kind).or_default();
+            of_kind.ends[0] += 1;
+            of_kind.ends[1] += usize::from(away > JUMP_PX);
+            self.drifts.push(away);
+        }
         let born = there
             .iter()
             .filter(|end| least_distance(**end, &carried) > JUMP_PX);
@@ -258,7 +278,14 @@ impl Tally {
         self.slides
             .extend(pair.matches.iter().map(|found| found.slide));
         let voted = voted_slides(before, after, &pair.matches);
-        self.voted_pops += voted.iter().filter(|slide| **slide > JUMP_PX).count();
+        for (found, voted) in pair.matches.iter().zip(voted) {
+            let kind = after.strokes[after.samples[found.after].stroke].kind;
+            let matches = &mut self.kinds.entry(kind).or_default().matches;
+            matches[0] += 1;
+            matches[1] += usize::from(found.slide > JUMP_PX);
+            matches[2] += usize::from(voted > JUMP_PX);
+            self.voted_pops += usize::from(voted > JUMP_PX);
+        }
         self.offsets
             .extend(pair.matches.iter().map(|found| found.offset));
         let id = |traced: &Traced, sample: &Sample| traced.strokes[sample.stroke].id;
@@ -293,9 +320,8 @@ impl Tally {
 
     /// Adds how far the contours of a frame lie outside of its raw ones, which run with the surface to their left.
     pub fn add_bias(&mut self, drawn: &Traced, raw: &Traced) {
-        let is_contour = |traced: &Traced, sample: &Sample| {
-            traced.strokes[sample.stroke].kind == npr_vector::stroke::Kind::Contour
-        };
+        let is_contour =
+            |traced: &Traced, sample: &Sample| traced.strokes[sample.stroke].kind == Kind::Contour;
         for sample in drawn
             .samples
             .iter()
@@ -625,6 +651,39 @@ mod tests {
             (tally.mean_bias() + 1.0).abs() < 0.02,
             "{}",
             tally.mean_bias()
+        );
+    }
+
+    #[test]
+    fn kinds_are_counted_apart() {
+        let of_kind = |kind: Kind, mut stroke: Stroke| {
+            stroke.kind = kind;
+            stroke
+        };
+        let [first, second] = [0, 1].map(|i| rows(2)[i].clone());
+        let before = [first.clone(), of_kind(Kind::Crease, second.clone())];
+        let after = [shifted(first, 20.0), of_kind(Kind::Crease, second)];
+        let kinds = tally_of(&before, &after[..1], &still()).kinds;
+        let lost = OfKind {
+            matches: [0; 3],
+            ends: [2, 2],
+        };
+        let shifted = OfKind {
+            matches: [100, 100, 0],
+            ends: [2, 0],
+        };
+        assert_eq!(
+            kinds,
+            BTreeMap::from([(Kind::Contour, shifted), (Kind::Crease, lost)])
+        );
+        let kinds = tally_of(&before, &after, &still()).kinds;
+        let held = OfKind {
+            matches: [100, 0, 0],
+            ends: [2, 0],
+        };
+        assert_eq!(
+            kinds,
+            BTreeMap::from([(Kind::Contour, shifted), (Kind::Crease, held)])
         );
     }
 

@@ -5,8 +5,9 @@ use std::collections::BTreeMap;
 use npr_benches::machine;
 use npr_benches::motion::causes::Counts;
 use npr_benches::motion::film::Film;
-use npr_benches::motion::tally::{Tally, share};
+use npr_benches::motion::tally::{OfKind, Tally, share};
 use npr_benches::table::Table;
+use npr_vector::stroke::Kind;
 
 use crate::measured::Measured;
 use crate::subject::{PRESET, SIZE};
@@ -86,21 +87,23 @@ pub fn heading() {
     );
     println!(
         "- the eye stands three radii away, 15 degrees above, vertical field of view 45 degrees\n\
-         - S1: it goes round by 0.5 degrees a frame, 120 frames. S2: it comes nearer by 1 % a frame, 40. S3: the camera \
-         turns where it stands, so that the middle moves by half a pixel a frame, 40. S4: the figure plays a clip at 24 \
-         frames a second. S5: nothing moves, 8\n"
+         - S1: it goes round by 0.5 degrees a frame, 120 frames. S2: it comes nearer by 1 % a frame, 40. S3: the \
+         camera turns where it stands, so that the middle moves by half a pixel a frame, 40. S4: the figure plays a \
+         clip at 24 frames a second. S5: nothing moves, 8\n"
     );
     println!(
-        "A frame's strokes, sampled a pixel apart, are carried to the next frame by the surface, and compared with what \
-         is drawn there. **drift**: how far an end lies from the nearest end, median (at most 40 px each); **lost**: \
-         ends with none within 8 px; **born**: ends of the next frame that come from none. **slide**: how far the \
-         texture coordinate of a sample moves, median; **pop**: samples where it moves by more than 8 px; **voted**: \
-         the same if every stroke took over its texture from the frame before as a whole, by the median of its samples; \
-         **same id**: samples whose stroke keeps its identity. **flicker**: samples with no ink within 6 px although a line is still \
-         to be drawn there, that is, within 3 px of a raw line; **point**: the same where their point of the surface is \
-         still seen, whether or not a line is there, as where a fold flattens; **blink**: samples without ink in one \
-         frame that have some in the next. **jitter**: root of the mean squared offset across the line, without its \
-         mean; **bias**: how far contours are drawn outside of the raw ones, mean.\n"
+        "A frame's strokes, sampled a pixel apart, are carried to the next frame by the surface, and compared with \
+         what is drawn there:\n\n\
+         - **drift**: how far an end lies from the nearest end, median, at most 40 px each; **lost**: ends with none \
+         within 8 px; **born**: ends of the next frame that come from none\n\
+         - **slide**: how far the texture coordinate of a sample moves, median; **pop**: samples where it moves by \
+         more than 8 px; **voted**: the same if every stroke took over its texture from the frame before as a whole, \
+         by the median of its samples; **same id**: samples whose stroke keeps its identity\n\
+         - **flicker**: samples with no ink within 6 px although a line is still to be drawn there, that is, within \
+         3 px of a raw line; **point**: the same where their point of the surface is still seen, whether or not a line \
+         is there, as where a fold flattens; **blink**: samples without ink in one frame that have some in the next\n\
+         - **jitter**: root of the mean squared offset across the line, without its mean; **bias**: how far contours \
+         are drawn outside of the raw ones, mean\n"
     );
 }
 
@@ -149,11 +152,37 @@ pub fn sequences(rows: &[Measured]) {
             table.add(model, cells);
         }
         println!("{table}");
+        if film != Film::Still {
+            println!("{}", kinds(&rows));
+        }
         if film == Film::Still {
             let still = rows.iter().filter(|row| row.tally.is_still()).count();
             println!("{still} of {} are still to the bit.\n", rows.len());
         }
     }
+}
+
+/// A table of all models together by kinds of lines.
+fn kinds(rows: &[&Measured]) -> Table {
+    let mut sums: BTreeMap<Kind, OfKind> = BTreeMap::new();
+    for (kind, of_kind) in rows.iter().flat_map(|row| &row.tally.kinds) {
+        let sum = sums.entry(*kind).or_default();
+        (0..3).for_each(|i| sum.matches[i] += of_kind.matches[i]);
+        (0..2).for_each(|i| sum.ends[i] += of_kind.ends[i]);
+    }
+    let all: usize = sums.values().map(|sum| sum.matches[0]).sum();
+    let mut table = Table::new(["kind", "of all ink, %", "pop, %", "voted, %", "lost, %"]);
+    for (kind, OfKind { matches, ends }) in sums {
+        let percent = |part: usize, whole: usize| format!("{:.2}", 100.0 * share(part, whole));
+        let cells = [
+            percent(matches[0], all),
+            percent(matches[1], matches[0]),
+            percent(matches[2], matches[0]),
+            percent(ends[1], ends[0]),
+        ];
+        table.add(kind.name(), cells);
+    }
+    table
 }
 
 /// Every bar, and the model that is farthest beyond it.
@@ -191,9 +220,9 @@ pub fn causes(rows: &[Measured]) {
         "Raw lines are runs of one kind on one surface, cut where something hides them. Every event is looked up in \
          the raw lines of both frames, and in what is drawn with stubs. Where raw lines end at a place in both frames, \
          the strokes of the frame that parts them tell why they may not be joined there. Figures are shares of all \
-         samples, or ends, of a model, in per cent; the example is the largest event: its samples, model, number of the \
-         later frame, and place in pixels. \"After a vote\" is what still pops where strokes take over their textures as \
-         a whole: the lesser ones of those that are joined.\n"
+         samples, or ends, of a model, in per cent. The example is the largest event: its samples, model, number of \
+         the later frame, and place in pixels. Pops after a vote are those that stay where strokes take over their \
+         textures as a whole: of the lesser ones of those that are joined.\n"
     );
     for film in Film::ALL.into_iter().filter(|film| *film != Film::Still) {
         let rows: Vec<&Measured> = rows.iter().filter(|row| row.film == film).collect();
