@@ -16,6 +16,12 @@ use super::traced::{Line, Sample, Traced};
 /// Distance from a place up to which a raw end belongs to it, in pixels: raw lines are not smoothed yet.
 const AT_END_PX: f64 = 4.5;
 
+/// Frames within which a joint that changes back flickers.
+pub const BACK_FRAMES: usize = 10;
+
+/// How far off a joint may be after those frames, in pixels: strokes overlap and wander there.
+const BACK_PX: f64 = 12.0;
+
 /// A frame as it is drawn, and on the way there.
 #[derive(Debug, Clone, Default)]
 pub struct Stages {
@@ -141,6 +147,22 @@ pub struct Causes {
     pub losses: Counts<Loss>,
     /// Carried samples that are gone.
     pub gone: Counts<Absence>,
+    /// Matches that pop where ends that meet in both frames are joined in one, and those of them at joints that changed
+    /// the other way within [`BACK_FRAMES`] before.
+    pub flips: [usize; 2],
+    /// Such joints of the last frames, where they are now.
+    recent: Vec<Flip>,
+}
+
+/// A joint that changed.
+#[derive(Debug, Clone, Copy)]
+struct Flip {
+    /// Number of the pair of frames.
+    pair: usize,
+    /// Where it is in the later frame of the last pair.
+    place: [f64; 2],
+    /// Whether its ends were joined then.
+    joins: bool,
 }
 
 /// Two frames, and whether a sample's point is seen in each.
@@ -160,7 +182,8 @@ impl Causes {
     pub fn add(&mut self, frames: &Frames<'_>) {
         let number = self.pairs;
         self.pairs += 1;
-        frames.pops(number, &mut self.pops);
+        self.follow(frames, number);
+        self.add_pops(frames, number);
         frames.voted_pops(number, &mut self.voted_pops);
         frames.losses(number, &mut self.losses);
         for sample in &frames.pair.gone {
@@ -169,29 +192,68 @@ impl Causes {
             add(&mut self.gone, cause, 1, (number, sample.place));
         }
     }
+
+    /// Carries the joints of the last frames to the later one of this pair, and forgets old ones.
+    fn follow(&mut self, frames: &Frames<'_>, number: usize) {
+        self.recent.retain(|flip| flip.pair + BACK_FRAMES >= number);
+        for flip in &mut self.recent {
+            let moved = frames.moved_from(flip.place);
+            flip.place = [0, 1].map(|i| flip.place[i] + moved[i]);
+        }
+    }
+
+    /// Counts the pops of every pair of strokes that are one.
+    fn add_pops(&mut self, frames: &Frames<'_>, number: usize) {
+        let mut found = Vec::new();
+        for (strokes, group) in frames.popping() {
+            let Popped { pop, place, joins } = frames.pop(strokes, &group);
+            add(&mut self.pops, pop, group.len(), (number, place));
+            if matches!(pop, Pop::Rule(_)) {
+                let is_back =
+                    |flip: &Flip| flip.joins != joins && distance(flip.place, place) <= BACK_PX;
+                self.flips[0] += group.len();
+                if self.recent.iter().any(is_back) {
+                    self.flips[1] += group.len();
+                }
+                found.push(Flip {
+                    pair: number,
+                    place,
+                    joins,
+                });
+            }
+        }
+        self.recent.extend(found);
+    }
+}
+
+/// Why the samples of two strokes pop.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Popped {
+    pop: Pop,
+    /// Where, in the later frame.
+    place: [f64; 2],
+    /// Whether the later stroke has more before the start of the earlier one.
+    joins: bool,
 }
 
 impl Frames<'_> {
-    /// Counts the pops of every pair of strokes that are one.
-    fn pops(&self, number: usize, counts: &mut Counts<Pop>) {
+    /// The matches whose textures pop, by the strokes that they lie on.
+    fn popping(&self) -> BTreeMap<[usize; 2], Vec<&Match>> {
         let [before, after] = self.stages;
         let mut groups: BTreeMap<[usize; 2], Vec<&Match>> = BTreeMap::new();
-        for found in self
+        let popping = self
             .pair
             .matches
             .iter()
-            .filter(|found| found.slide > JUMP_PX)
-        {
+            .filter(|found| found.slide > JUMP_PX);
+        for found in popping {
             let strokes = [
                 before.drawn.samples[found.before].stroke,
                 after.drawn.samples[found.after].stroke,
             ];
             groups.entry(strokes).or_default().push(found);
         }
-        for (strokes, group) in groups {
-            let (pop, place) = self.pop(strokes, &group);
-            add(counts, pop, group.len(), (number, place));
-        }
+        groups
     }
 
     /// Counts what would pop although strokes took over their textures as a whole: the lesser parts of strokes that
@@ -235,8 +297,14 @@ impl Frames<'_> {
         self.pair.carried[number].sample.place
     }
 
-    /// Why the samples of two strokes that are one pop, and where in the later frame.
-    fn pop(&self, [a, b]: [usize; 2], group: &[&Match]) -> (Pop, [f64; 2]) {
+    /// Why the samples of two strokes that are one pop.
+    fn pop(&self, [a, b]: [usize; 2], group: &[&Match]) -> Popped {
+        let plain = |pop, place| Popped {
+            pop,
+            place,
+            joins: false,
+        };
+
         // Compare what the strokes are.
         let [before, after] = self.stages.map(|stages| &stages.drawn);
         let [was, is] = [&before.strokes[a], &after.strokes[b]];
@@ -244,20 +312,20 @@ impl Frames<'_> {
         let start = after.samples[to].place;
         if (was.kind, was.surface) != (is.kind, is.surface) {
             let middle = after.samples[group[group.len() / 2].after].place;
-            return (Pop::OtherLine, middle);
+            return plain(Pop::OtherLine, middle);
         }
         let is_turned = group.iter().map(|found| self.turn(found)).sum::<f64>() < 0.0;
         if is_turned && was.closed == is.closed {
-            return (Pop::Reversed, start);
+            return plain(Pop::Reversed, start);
         }
         if was.closed && is.closed {
-            return (Pop::Head, start);
+            return plain(Pop::Head, start);
         }
         let first = self.pair.carried[from].sample.place;
         if was.closed != is.closed {
             // The place of the open one's ends is where the ring is parted.
             let place = if is.closed { first } else { start };
-            return (Pop::Ring(self.joint(place)), place);
+            return plain(Pop::Ring(self.joint(place)), place);
         }
 
         // Find each start on the other stroke.
@@ -266,10 +334,13 @@ impl Frames<'_> {
         let earlier = earlier.iter().map(|carried| &carried.sample);
         let on_earlier = nearest_of(earlier, start);
         match (on_later, on_earlier) {
-            (Some(station), _) if station > JUMP_PX => (self.grown(a, is, station, first), first),
-            (_, Some(station)) if station > JUMP_PX => (self.shrunk(b, was, station), start),
-            (Some(_), _) | (_, Some(_)) => (Pop::Stretched, start),
-            (None, None) => (Pop::Elsewhere, start),
+            (Some(station), _) if station > JUMP_PX => Popped {
+                joins: true,
+                ..plain(self.grown(a, is, station, first), first)
+            },
+            (_, Some(station)) if station > JUMP_PX => plain(self.shrunk(b, was, station), start),
+            (Some(_), _) | (_, Some(_)) => plain(Pop::Stretched, start),
+            (None, None) => plain(Pop::Elsewhere, start),
         }
     }
 
@@ -405,16 +476,25 @@ impl Frames<'_> {
         }
     }
 
-    /// How far the picture moved at a place of the later frame.
+    /// How far the picture moves from a place of the frame before.
+    fn moved_from(&self, place: [f64; 2]) -> [f64; 2] {
+        self.moved_by(|here, _| distance(here, place))
+    }
+
+    /// How far the picture moved to a place of the later frame.
     fn moved_near(&self, place: [f64; 2]) -> [f64; 2] {
-        let before = &self.stages[0].drawn.samples;
-        let carried = self.pair.carried.iter().map(|carried| &carried.sample);
-        let nearest = carried
-            .zip(before)
-            .min_by(|(a, _), (b, _)| distance(a.place, place).total_cmp(&distance(b.place, place)));
-        nearest.map_or([0.0; 2], |(there, here)| {
-            [0, 1].map(|i| there.place[i] - here.place[i])
-        })
+        self.moved_by(|_, there| distance(there, place))
+    }
+
+    /// How far the sample moves that is nearest by `away` of its places before and after.
+    fn moved_by(&self, away: impl Fn([f64; 2], [f64; 2]) -> f64) -> [f64; 2] {
+        let before = self.stages[0].drawn.samples.iter();
+        let carried = self.pair.carried.iter();
+        let places = before
+            .zip(carried)
+            .map(|(here, there)| (here.place, there.sample.place));
+        let nearest = places.min_by(|a, b| away(a.0, a.1).total_cmp(&away(b.0, b.1)));
+        nearest.map_or([0.0; 2], |(here, there)| [0, 1].map(|i| there[i] - here[i]))
     }
 }
 
@@ -545,19 +625,23 @@ mod tests {
     }
 
     fn causes_of(before: &Stages, after: &Stages, is_seen: bool) -> Causes {
+        let mut causes = Causes::default();
+        add_pair(&mut causes, before, after, is_seen);
+        causes
+    }
+
+    fn add_pair(causes: &mut Causes, before: &Stages, after: &Stages, is_seen: bool) {
         let step = Step {
             from: sheet_moved(0.0),
             to: sheet_moved(0.0),
             skin: None,
         };
-        let mut causes = Causes::default();
         causes.add(&Frames {
             stages: [before, after],
             is_seen: &|_| is_seen,
             was_seen: &|_| is_seen,
             pair: &Pair::new(&before.drawn, &after.drawn, &step),
         });
-        causes
     }
 
     fn pops_of(before: &Stages, after: &Stages) -> Vec<Pop> {
@@ -643,6 +727,28 @@ mod tests {
         let mut stroke = stroke.clone();
         stroke.points.iter_mut().for_each(|point| point.u += 20.0);
         stroke
+    }
+
+    #[test]
+    fn joints_that_change_back_are_told() {
+        let whole = line([100.0, 90.0], [300.0, 90.0]);
+        let parts = [
+            line([100.0, 90.0], [160.0, 90.0]),
+            line([160.0, 90.0], [300.0, 90.0]),
+        ];
+        let two = plain(&parts);
+        let joined = staged(std::slice::from_ref(&whole), &parts);
+        let flips = |frames: &[&Stages]| {
+            let mut causes = Causes::default();
+            for pair in frames.windows(2) {
+                add_pair(&mut causes, pair[0], pair[1], true);
+            }
+            causes.flips
+        };
+        assert_eq!(flips(&[&two, &joined]), [140, 0]);
+        assert_eq!(flips(&[&two, &joined, &joined, &two]), [280, 140]);
+        let long = [vec![&two], vec![&joined; BACK_FRAMES + 2], vec![&two]].concat();
+        assert_eq!(flips(&long), [280, 0], "long ago");
     }
 
     #[test]

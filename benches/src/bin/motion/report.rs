@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use npr_benches::machine;
-use npr_benches::motion::causes::Counts;
+use npr_benches::motion::causes::{BACK_FRAMES, Counts};
 use npr_benches::motion::film::Film;
 use npr_benches::motion::tally::{OfKind, Tally, share};
 use npr_benches::table::Table;
@@ -235,6 +235,9 @@ pub fn causes(rows: &[Measured]) {
             |row| &row.causes.pops,
             words::of_pop,
         );
+        if let Some(flips) = flips(&rows) {
+            println!("{flips}\n");
+        }
         table(
             "pops after a vote",
             &rows,
@@ -254,6 +257,27 @@ pub fn causes(rows: &[Measured]) {
         let word = |absence| words::of_absence(absence).to_owned();
         table("ink gone", &rows, carried, |row| &row.causes.gone, word);
     }
+}
+
+/// How many of the joints that change change back, in words; none where none change.
+fn flips(rows: &[&Measured]) -> Option<String> {
+    let of = |row: &&&Measured| row.causes.flips;
+    let all = rows.iter().map(|row| of(&row));
+    let [at_joints, back] = all.fold([0; 2], |sum, flips| [0, 1].map(|i| sum[i] + flips[i]));
+    let percent =
+        |[at_joints, back]: [usize; 2]| format!("{:.0} %", 100.0 * share(back, at_joints));
+    let by_model = rows.iter().filter(|row| of(row)[0] > 0);
+    let by_model: Vec<String> = by_model
+        .map(|row| format!("{} {}", row.model, percent(row.causes.flips)))
+        .collect();
+    (at_joints > 0).then(|| {
+        format!(
+            "Of what pops where ends that meet in both frames are joined in one, {} lies at joints that changed the \
+             other way within {BACK_FRAMES} frames before: {}.",
+            percent([at_joints, back]),
+            by_model.join(", ")
+        )
+    })
 }
 
 /// A table of causes with a column for every model, unless nothing happened at all.
