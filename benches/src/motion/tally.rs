@@ -52,7 +52,8 @@ pub struct Match {
     pub before: usize,
     /// Number of the sample that is drawn.
     pub after: usize,
-    /// How far the texture coordinate moved, in pixels; around closed strokes the shorter way.
+    /// How far the texture coordinate moved, in pixels, to half of one, as samples are a pixel apart; around closed
+    /// strokes the shorter way.
     pub slide: f64,
     /// How far the drawn sample lies to the left of the carried stroke, in pixels.
     pub offset: f64,
