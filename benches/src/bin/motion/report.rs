@@ -96,9 +96,10 @@ pub fn heading() {
          what is drawn there:\n\n\
          - **drift**: how far an end lies from the nearest end, median, at most 40 px each; **lost**: ends with none \
          within 8 px; **born**: ends of the next frame that come from none\n\
-         - **slide**: how far the texture coordinate of a sample moves, median, to half a pixel, as samples are a pixel \
-         apart; **pop**: samples where it moves by more than 8 px; **voted**: the same if every stroke took over its texture from the frame before as a whole, \
-         by the median of its samples; **same id**: samples whose stroke keeps its identity\n\
+         - **slide**: how far the texture coordinate of a sample moves, median, to half a pixel, as samples are a \
+         pixel apart; **pop**: samples where it moves by more than 8 px; **voted**: the same if every stroke took over \
+         its texture from the frame before as a whole, by the median of its samples; **same id**: samples whose stroke \
+         keeps its identity\n\
          - **flicker**: samples with no ink within 6 px although a line is still to be drawn there, that is, within \
          3 px of a raw line; **point**: the same where their point of the surface is still seen, whether or not a line \
          is there, as where a fold flattens; **blink**: samples without ink in one frame that have some in the next\n\
