@@ -27,6 +27,7 @@ pub mod ledger;
 pub mod lines;
 pub mod machine;
 pub mod memory;
+pub mod motion;
 pub mod orbit;
 pub mod outline_color;
 pub mod sheet;

@@ -26,6 +26,9 @@ const OUTLINE_COLOR: &str = "benches/results/outline_color.md";
 /// Where the tables of dashes are kept.
 const DASHES: &str = "benches/results/dashes.md";
 
+/// Where the tables of lines that move are kept.
+const MOTION: &str = "benches/results/motion.md";
+
 /// Where the tables of frames on graphics cards are kept.
 const DEVICE: &str = "benches/results/device_model.md";
 
@@ -107,6 +110,16 @@ pub fn dashes(root: &Path, arguments: &[&str]) -> Result<()> {
     let tables = tables_of(root, "dashes", arguments)?;
     if arguments.is_empty() {
         write_whole(&root.join(DASHES), &tables)?;
+    }
+    Ok(())
+}
+
+/// Measures how still lines lie while cameras and figures move in release and prints the tables; those of a whole run
+/// become the results.
+pub fn motion(root: &Path, arguments: &[&str]) -> Result<()> {
+    let tables = tables_of(root, "motion", arguments)?;
+    if keeps(arguments) {
+        write_whole(&root.join(MOTION), &tables)?;
     }
     Ok(())
 }

@@ -31,3 +31,5 @@ mod smooth;
 mod suppressed_edges;
 mod visibility;
 pub mod zero_set;
+
+pub use merge::{DEPTH_SHARE, FACING_PX, STRAIGHT_COS, TOUCHING_PX};

@@ -25,7 +25,7 @@ pub(crate) const DOT_PX: f64 = 8.0;
 
 /// Cosine of the largest bend where two runs are joined, and of the largest angle between an end and the gap it is
 /// joined across.
-const STRAIGHT_COS: f64 = 0.85;
+pub const STRAIGHT_COS: f64 = 0.85;
 
 /// The same cosine where one of the runs is a dot and both touch; dots that do not touch are meant as such, like the
 /// holes of a belt.
@@ -39,7 +39,7 @@ const CORNER_COST: f64 = 10.0;
 
 /// Largest difference in depth where two runs are joined, as a share of the depth: where surfaces turn away, depth
 /// changes by that within few pixels.
-const DEPTH_SHARE: f64 = 0.03;
+pub const DEPTH_SHARE: f64 = 0.03;
 
 /// Most ends in one cell as wide as the reach; more stay as they are, since nobody could tell which continues which.
 const ENDS_MOST: usize = 128;

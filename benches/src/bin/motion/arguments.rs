@@ -1,0 +1,63 @@
+//! What the command line says.
+
+use std::path::PathBuf;
+
+use npr_benches::lines::subjects::shared_models;
+
+use crate::Outcome;
+
+/// How the program is called.
+const USAGE: &str = "\
+usage: motion [--models DIR] [--only NAME] [--quick] [--pictures DIR]
+
+  --models DIR    folder of the shared models
+  --only NAME     only models, or sequences, whose name holds NAME; may be given twice
+  --quick         twelve frames of each sequence at most
+  --pictures DIR  writes an SVG for the largest event of every cause: a frame, the next, and its raw lines";
+
+/// What the user asked for.
+#[derive(Debug, Clone)]
+pub struct Arguments {
+    /// Folder of the shared models.
+    pub models: PathBuf,
+    /// Parts of the names to measure.
+    only: Vec<String>,
+    /// Most frames of a sequence.
+    pub frames_most: usize,
+    /// Folder for pictures of causes.
+    pub pictures: Option<PathBuf>,
+}
+
+impl Arguments {
+    /// Whether a sequence of a model is asked for.
+    pub fn takes(&self, model: &str, film: &str) -> bool {
+        let holds = |part: &String| model.contains(part.as_str()) || film.contains(part.as_str());
+        self.only.iter().all(holds)
+    }
+}
+
+/// Reads the arguments.
+///
+/// # Errors
+///
+/// How the program is called, where they are not understood.
+pub fn parse(words: impl Iterator<Item = String>) -> Outcome<Arguments> {
+    let mut arguments = Arguments {
+        models: shared_models(),
+        only: Vec::new(),
+        frames_most: usize::MAX,
+        pictures: None,
+    };
+    let mut words = words;
+    while let Some(word) = words.next() {
+        let mut value = || words.next().ok_or(USAGE);
+        match word.as_str() {
+            "--models" => arguments.models = value()?.into(),
+            "--only" => arguments.only.push(value()?),
+            "--quick" => arguments.frames_most = 12,
+            "--pictures" => arguments.pictures = Some(value()?.into()),
+            _ => return Err(USAGE.into()),
+        }
+    }
+    Ok(arguments)
+}

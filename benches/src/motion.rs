@@ -1,0 +1,19 @@
+//! How still strokes lie while a camera or a figure moves.
+//!
+//! [`film`] says what moves: five sequences of views. [`traced`] samples the strokes of a frame a pixel apart, [`step`]
+//! carries a place to the next frame by the surface that it lies on, [`tally`] compares what was carried with what is
+//! drawn there: how far ends drift, how far the texture coordinate slides, what goes and comes back, how lines shiver.
+//! [`causes`] tells why, by the lines of the same frames before they are joined, smoothed and left out.
+//!
+//! Nothing here knows how strokes are made: they are read as any program would export them.
+
+pub mod causes;
+pub mod film;
+pub mod near;
+pub mod skin;
+pub mod step;
+pub mod tally;
+pub mod traced;
+
+#[cfg(test)]
+pub(crate) mod testing;
