@@ -1,5 +1,7 @@
 //! The few 4 x 4 matrices a scene file needs, column-major as in glTF.
 
+use crate::quaternion;
+
 /// A 4 x 4 matrix as four columns.
 pub type Matrix = [[f32; 4]; 4];
 
@@ -43,7 +45,7 @@ pub(crate) fn transform_point(m: &Matrix, [x, y, z]: [f32; 3]) -> [f32; 3] {
 /// The quaternion is made unit length first; one of no or infinite length turns nothing.
 pub(crate) fn from_parts(translation: [f32; 3], rotation: [f32; 4], scale: [f32; 3]) -> Matrix {
     // Turn the quaternion into three axes, each scaled.
-    let [x, y, z, w] = unit_quaternion(rotation);
+    let [x, y, z, w] = quaternion::unit(rotation);
     let [sx, sy, sz] = scale;
     let [tx, ty, tz] = translation;
     let column = |v: [f32; 3], s: f32| [v[0] * s, v[1] * s, v[2] * s, 0.0];
@@ -76,13 +78,27 @@ pub(crate) fn from_parts(translation: [f32; 3], rotation: [f32; 4], scale: [f32;
     ]
 }
 
-fn unit_quaternion(q: [f32; 4]) -> [f32; 4] {
-    let length = q.iter().map(|v| v * v).sum::<f32>().sqrt();
-    if length.is_finite() && length > 0.0 {
-        q.map(|v| v / length)
-    } else {
-        [0.0, 0.0, 0.0, 1.0]
+/// The matrix that undoes `m`, whose last row is taken as 0 0 0 1; none where it flattens space, or nearly. In double
+/// precision, since motions carry places through it.
+pub(crate) fn inverse(m: &Matrix) -> Option<[[f64; 3]; 4]> {
+    let [a, b, c, d] = m.map(|[x, y, z, _]| [x, y, z].map(f64::from));
+    let cross = |a: [f64; 3], b: [f64; 3]| {
+        [
+            a[1] * b[2] - a[2] * b[1],
+            a[2] * b[0] - a[0] * b[2],
+            a[0] * b[1] - a[1] * b[0],
+        ]
+    };
+    let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    let rows = [cross(b, c), cross(c, a), cross(a, b)];
+    let volume = dot(a, rows[0]);
+    if !volume.is_finite() || volume.abs() < 1e-30 {
+        return None;
     }
+    let rows = rows.map(|row| row.map(|v| v / volume));
+    let column = |i: usize| [rows[0][i], rows[1][i], rows[2][i]];
+    let back = rows.map(|row| -dot(row, d));
+    Some([column(0), column(1), column(2), back])
 }
 
 /// Whether every element is finite and small enough for products to stay finite.
@@ -108,6 +124,23 @@ mod tests {
         assert!(
             (p[0] - 1.0).abs() < 1e-6 && p[1] == 2.0 && (p[2] - 1.0).abs() < 1e-6,
             "{p:?}"
+        );
+    }
+
+    #[test]
+    fn an_inverse_carries_points_back() {
+        let m = from_parts([1.0, -2.0, 3.0], [0.1, 0.7, -0.3, 0.4], [2.0, 0.5, 3.0]);
+        let [x, y, z] = transform_point(&m, [4.0, 5.0, -6.0]).map(f64::from);
+        let [a, b, c, d] = inverse(&m).expect("a sound matrix");
+        let back: [f64; 3] = std::array::from_fn(|i| a[i] * x + b[i] * y + c[i] * z + d[i]);
+        let wanted = [4.0, 5.0, -6.0];
+        assert!(
+            back.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-4),
+            "{back:?}"
+        );
+        assert_eq!(
+            inverse(&from_parts([0.0; 3], [0.0; 4], [1.0, 0.0, 1.0])),
+            None
         );
     }
 
