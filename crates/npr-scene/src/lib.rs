@@ -23,11 +23,13 @@
 //! planned, trees are walked without recursion, and other files are reached only through
 //! [`Resources`], which [`FolderResources`] confines to the scene's own folder.
 
+mod bending;
 mod bone;
 mod camera;
 mod clip;
 mod decode;
 mod error;
+mod expressing;
 mod expression;
 mod figure;
 mod format;
@@ -72,7 +74,7 @@ pub use camera::{Camera, Projection};
 pub use clip::{Channel, Clip, Interpolation, Property};
 pub use error::SceneError;
 pub use expression::{ColorBind, Expression, MorphBind, Override, TextureBind};
-pub use figure::{Figure, Posture};
+pub use figure::Figure;
 pub use format::Format;
 pub use gltf::{GltfError, Item};
 pub use image::Image;
@@ -89,7 +91,7 @@ pub use notice::Notice;
 pub use obj::{Element as ObjElement, ObjError};
 pub use ply::PlyError;
 pub use pose::{Pose, PoseError};
-pub use posture::{PostureError, PostureFault};
+pub use posture::{Posture, PostureError, PostureFault};
 pub use resources::{FolderResources, MemoryResources, ResourceError, Resources};
 pub use scene::Scene;
 pub use skin::Skin;

@@ -4,9 +4,9 @@
 //! of the hips is as much longer as their height at rest. All of it is linear in the keys, so that clips are carried over
 //! key by key, with their interpolation.
 
+use crate::bending::RestFrames;
 use crate::bone::Bone;
 use crate::clip::{Channel, Clip, Interpolation, Property};
-use crate::figure::RestFrames;
 use crate::limits::{Allowance, LimitError, Limits};
 use crate::matrix;
 use crate::notice::{Notice, Notices};

@@ -8,10 +8,19 @@
 //! it.
 
 use crate::bone::Bone;
-use crate::figure::Posture;
 use crate::mesh::POSITION_LIMIT;
 use npr_core::decoding::guard;
 use serde_json::Value;
+use std::collections::BTreeMap;
+
+/// How a figure stands, by the names of its bones; those that it does not name stay as they are.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Posture {
+    /// How far bones are turned from rest, as quaternions `x y z w` of any length along the axes of the world.
+    pub turns: BTreeMap<Bone, [f32; 4]>,
+    /// How far the hips are moved from rest, in units of the scene.
+    pub hips: Option<[f32; 3]>,
+}
 
 /// Why a file is no posture.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]

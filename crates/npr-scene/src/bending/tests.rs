@@ -1,4 +1,5 @@
 use super::*;
+use crate::figure::Figure;
 use crate::quaternion::unit;
 use crate::testing::{BODY_BONES, humanoid, node_of};
 use proptest::prelude::*;
