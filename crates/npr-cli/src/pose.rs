@@ -17,8 +17,8 @@ const LISTED: usize = 5;
 /// Longest name that is compared with what was asked for, in bytes.
 const COMPARED_MAX: usize = 64;
 
-/// Gives a scene that was loaded what the user brings along: the clips of a motion, and the colours of expressions, which
-/// stand still. The files of both, and of the pose, are among its inputs then.
+/// Gives a scene that was loaded what the user brings along: the clips of a motion, and the colours of expressions,
+/// which stand still. The files of both, and of the pose, are among its inputs then.
 pub fn dress(args: &PoseArguments, loaded: &mut Loaded, limits: &Limits) -> Result<(), Fault> {
     loaded.inputs.extend(args.pose.clone());
     if let Some(path) = &args.motion {

@@ -31,7 +31,7 @@ impl RestFrames {
         for node in &scene.nodes {
             let (local, turn) = match node.rest {
                 Some(rest) => (rest.matrix(), quaternion::unit(rest.rotation)),
-                None => (node.local, quaternion::of_matrix(&node.local)),
+                None => (node.local, matrix::turn_of(&node.local)),
             };
             let (world, above) = frames.of_parent(node.parent);
             frames.worlds.push(matrix::multiply(&world, &local));

@@ -116,8 +116,8 @@ impl Bone {
         Self::named(thumb.map_or(name, |[_, new]| new))
     }
 
-    /// The bone that a node is, by its name: that of VRM 1.0 in any letter case, or that of a skeleton of Mixamo, with or
-    /// without its prefix.
+    /// The bone that a node is, by its name: that of VRM 1.0 in any letter case, or that of a skeleton of Mixamo, with
+    /// or without its prefix.
     pub(crate) fn of_node(name: &str) -> Option<Self> {
         let prefixed = name
             .get(..MIXAMO.len())

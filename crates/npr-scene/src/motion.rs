@@ -1,8 +1,8 @@
 //! Motions: clips of one humanoid, played by another [VRM animation 1.0].
 //!
 //! A bone is turned along the axes of the world as it is in the motion, from where each of the two rests, and the way
-//! of the hips is as much longer as their height at rest. All of it is linear in the keys, so that clips are carried over
-//! key by key, with their interpolation.
+//! of the hips is as much longer as their height at rest. All of it is linear in the keys, so that clips are carried
+//! over key by key, with their interpolation.
 
 use crate::bending::RestFrames;
 use crate::bone::Bone;

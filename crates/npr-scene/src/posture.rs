@@ -4,8 +4,8 @@
 //! {"pose": {"hips": {"position": [0, -0.05, 0]}, "leftUpperArm": {"rotation": [0, 0, 0.6, 0.8]}}}
 //! ```
 //!
-//! It is what `VRMHumanoid.getNormalizedPose` of three-vrm gives for an avatar of VRM 1.0, with or without `pose` around
-//! it.
+//! It is what `VRMHumanoid.getNormalizedPose` of three-vrm gives for an avatar of VRM 1.0, with or without `pose`
+//! around it.
 
 use crate::bone::Bone;
 use crate::mesh::POSITION_LIMIT;

@@ -17,7 +17,8 @@ pub struct PoseArguments {
     /// A file whose clips the figure plays instead of its own: a VRM animation (.vrma), or a .glb or .vrm with bones.
     #[arg(long, value_name = "FILE")]
     pub motion: Option<PathBuf>,
-    /// A file of bones by their VRM names, each with its rotation, which counts where a clip turns the same bone (.json).
+    /// A file of bones by their VRM names, each with its rotation, which counts where a clip turns the same bone
+    /// (.json).
     #[arg(long, value_name = "FILE")]
     pub pose: Option<PathBuf>,
     /// An expression of a VRM by its name, and how much it shows, 0 to 1 [default share: 1]; repeatable.

@@ -62,7 +62,8 @@ fn played(scene: &Scene, motion: &Scene) -> (Scene, Vec<Notice>) {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(48))]
 
-    /// Two humanoids of one shape do the same in the world, however their nodes are turned; a larger one does it larger.
+    /// Two humanoids of one shape do the same in the world, however their nodes are turned; a larger one does it
+    /// larger.
     #[test]
     fn a_motion_looks_the_same_on_any_humanoid_of_the_shape(
         from in turns(), to in turns(), size in 0.3f32..4.0, time in -0.5f32..1.5,
