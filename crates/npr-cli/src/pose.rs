@@ -6,7 +6,8 @@ use crate::input::read_file;
 use crate::message::{self, quoted};
 use crate::source::{Loaded, Source};
 use npr_scene::{
-    Bone, Clip, Limits, MotionError, Notice, Pose, Posture, PostureFault, Property, Scene,
+    Bone, Clip, Limits, MotionError, Notice, Pose, Posture, PostureError, PostureFault, Property,
+    Scene,
 };
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -206,9 +207,13 @@ fn posture_of(
         let fault = Fault::new(Exit::Usage, MotionError::NoBones);
         return Err(fault.while_doing(format_args!("cannot take the pose {}", quoted(path))));
     }
-    let bytes = read_file(path, limits.json_bytes)?;
-    let (posture, faults) = Posture::read(&bytes).map_err(|fault| {
-        Fault::new(Exit::Input, fault).while_doing(format_args!("cannot read {}", quoted(path)))
+    let bytes = read_file(path, limits.file_bytes)?;
+    let (posture, faults) = Posture::read(&bytes, limits).map_err(|fault| {
+        let exit = match fault {
+            PostureError::Limit(_) => Exit::Limit,
+            _ => Exit::Input,
+        };
+        Fault::new(exit, fault).while_doing(format_args!("cannot read {}", quoted(path)))
     })?;
 
     // Say what is wrong with it.

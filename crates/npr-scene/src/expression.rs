@@ -2,13 +2,13 @@
 
 use std::collections::BTreeMap;
 
-/// The expressions that VRM names: in 1.0, and in 0.x where it was another name.
+/// The expressions that VRM names, in 1.0 and in 0.x, which has no `surprised` of its own.
 pub(crate) const PRESETS: [[&str; 2]; 18] = [
     ["happy", "joy"],
     ["angry", "angry"],
     ["sad", "sorrow"],
     ["relaxed", "fun"],
-    ["surprised", ""],
+    ["surprised", "surprised"],
     ["aa", "a"],
     ["ih", "i"],
     ["ou", "u"],
@@ -183,9 +183,7 @@ pub(crate) fn find(expressions: &[Expression], asked: &str) -> Option<u32> {
         found.map(|number| number as u32)
     };
     let low = asked.to_lowercase();
-    let old = PRESETS
-        .iter()
-        .find(|[_, old]| !old.is_empty() && *old == low);
+    let old = PRESETS.iter().find(|[_, old]| *old == low);
     position(&|expression| expression.name == asked)
         .or_else(|| position(&|expression| expression.name.to_lowercase() == low))
         .or_else(|| position(&|expression| expression.file_name.to_lowercase() == low))

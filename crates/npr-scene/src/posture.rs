@@ -8,6 +8,7 @@
 //! around it.
 
 use crate::bone::Bone;
+use crate::limits::{self, LimitError, Limits};
 use crate::mesh::POSITION_LIMIT;
 use npr_core::decoding::guard;
 use serde_json::Value;
@@ -22,6 +23,9 @@ pub struct Posture {
     pub hips: Option<[f32; 3]>,
 }
 
+/// How many times as many bytes the JSON of a scene may have.
+const SHARE_OF_JSON: u64 = 64;
+
 /// Why a file is no posture.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
@@ -34,6 +38,9 @@ pub enum PostureError {
         /// Likewise.
         column: usize,
     },
+    /// It is too large.
+    #[error(transparent)]
+    Limit(#[from] LimitError),
     /// It holds something else.
     #[error(
         "it holds no bones: {{\"pose\": {{\"hips\": {{\"rotation\": [x, y, z, w]}}}}}} is expected"
@@ -56,13 +63,16 @@ pub enum PostureFault {
 }
 
 impl Posture {
-    /// The posture in a file, with what of it cannot be used. O(bytes).
+    /// The posture in a file, with what of it cannot be used. O(bytes); files may have a 64th of the bytes that
+    /// `limits` allow the JSON of a scene.
     ///
     /// # Errors
     ///
-    /// [`PostureError`] where the file holds no object of objects.
-    pub fn read(bytes: &[u8]) -> Result<(Self, Vec<PostureFault>), PostureError> {
+    /// [`PostureError`] where the file holds no object of objects, or is too large.
+    pub fn read(bytes: &[u8], limits: &Limits) -> Result<(Self, Vec<PostureFault>), PostureError> {
         // Find the bones.
+        let (size, most) = (bytes.len() as u64, limits.json_bytes / SHARE_OF_JSON);
+        limits::check("size of a pose in bytes", size, most, "--max-json")?;
         let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
         let parsed = guard(|| serde_json::from_slice::<Value>(bytes));
         let document = parsed.map_err(|_| PostureError::NoBones)?;
@@ -129,7 +139,7 @@ mod tests {
         let text = br#"{"pose":{"hips":{"position":[0,-0.1,0],"rotation":null},"head":{"rotation":[0,0,0,2]},
             "neck":{"rotation":[0,0,0,0]},"jaw":{"rotation":[0,0,1]},"spine":{"position":[1,0,0]},
             "chest":{"position":[0,0,0]},"leftHand":{"position":"here"},"Head":{}}}"#;
-        let (posture, mut faults) = Posture::read(text).expect("a posture");
+        let (posture, mut faults) = Posture::read(text, &Limits::default()).expect("a posture");
         assert_eq!(posture.hips, Some([0.0, -0.1, 0.0]));
         let [head, neck, jaw, spine, hand] = ["head", "neck", "jaw", "spine", "leftHand"]
             .map(|name| Bone::named(name).expect("a bone"));
@@ -150,20 +160,23 @@ mod tests {
     #[test]
     fn the_object_around_the_bones_may_be_left_out() {
         let bare = br#"{"hips":{"position":[0,1,0]}}"#;
-        let (posture, faults) = Posture::read(bare).expect("a posture");
+        let (posture, faults) = Posture::read(bare, &Limits::default()).expect("a posture");
         assert_eq!((posture.hips, faults), (Some([0.0, 1.0, 0.0]), vec![]));
     }
 
     #[test]
     fn other_files_are_refused() {
         for text in ["[]", "3", "{\"pose\":3}", "{\"pose\":{\"hips\":[0,0,0,1]}}"] {
-            let fault = Posture::read(text.as_bytes()).expect_err("no posture");
+            let fault = Posture::read(text.as_bytes(), &Limits::default()).expect_err("no posture");
             assert_eq!(fault, PostureError::NoBones, "{text}");
         }
         let deep = "{\"pose\":".repeat(100_000);
         for text in ["", "{", "{\"pose\":}", &deep] {
-            let fault = Posture::read(text.as_bytes()).expect_err("no JSON");
+            let fault = Posture::read(text.as_bytes(), &Limits::default()).expect_err("no JSON");
             assert!(matches!(fault, PostureError::Json { .. }));
         }
+        let large = " ".repeat((1 << 20) + 1);
+        let fault = Posture::read(large.as_bytes(), &Limits::default()).expect_err("too large");
+        assert!(fault.to_string().contains("--max-json"), "{fault}");
     }
 }

@@ -197,6 +197,28 @@ fn what_a_run_reads_is_not_written_over() {
     let line = ["lines", "one.vrm", "--pose", "bow.json", "-o", "bow.json"];
     place.npr(&line).assert_fault(2, "bow.json");
     assert_eq!(place.get("bow.json"), BOW);
+    place.put("wave.svg", &gesture());
+    let line = ["lines", "one.vrm", "--motion", "wave.svg", "-o", "wave.svg"];
+    place.npr(&line).assert_fault(2, "wave.svg");
+    assert!(place.get("wave.svg") == gesture());
+}
+
+#[test]
+fn an_expression_changes_colours_too() {
+    let place = place();
+    let red = |scene, more: &[&str]| {
+        let (picture, _) = drawn(&place, "render", scene, more);
+        let picture = image::load_from_memory(&picture)
+            .expect("a picture")
+            .to_rgb8();
+        let is_red = |pixel: &&image::Rgb<u8>| pixel[0] > 100 && pixel[1] < 20 && pixel[2] < 20;
+        picture.pixels().filter(is_red).count()
+    };
+    for scene in ["zero.vrm", "one.vrm"] {
+        assert_eq!(red(scene, &[]), 0);
+        assert_eq!(red(scene, &["--expression", "aa"]), 0);
+        assert!(red(scene, &["--expression", "happy"]) > 20);
+    }
 }
 
 #[test]

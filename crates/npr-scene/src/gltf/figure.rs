@@ -247,9 +247,7 @@ impl Reader<'_, '_> {
         for said in groups.and_then(Value::as_array).into_iter().flatten() {
             let text = |key| said.get(key).and_then(Value::as_str);
             let preset = text("presetName").unwrap_or_default().to_lowercase();
-            let preset = PRESETS
-                .iter()
-                .find(|[_, old]| !old.is_empty() && *old == preset);
+            let preset = PRESETS.iter().find(|[_, old]| *old == preset);
             let file_name = text("name").unwrap_or_default();
             let name = preset.map_or(file_name, |[new, _]| new);
             if name.is_empty() {

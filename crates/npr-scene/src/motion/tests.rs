@@ -1,6 +1,6 @@
 use super::*;
 use crate::testing::{BODY_BONES, gesture, humanoid, node_of};
-use crate::{Format, MemoryResources, Node, load_bytes};
+use crate::{Format, MemoryResources, Node, Transform, load_bytes};
 use proptest::prelude::*;
 
 fn turns() -> impl Strategy<Value = [[f32; 4]; BODY_BONES]> {
@@ -47,6 +47,34 @@ fn places(scene: &Scene, time_s: f32) -> Vec<[f32; 3]> {
     posed.nodes.iter().map(place).collect()
 }
 
+/// A humanoid that hangs on a node which is moved, turned and scaled, and stands where it stood.
+fn hung(mut scene: Scene, root: Transform) -> Scene {
+    // Put the node before all others.
+    for node in &mut scene.nodes {
+        node.parent = Some(node.parent.map_or(0, |parent| parent + 1));
+        node.children.iter_mut().for_each(|child| *child += 1);
+    }
+    let hook = Node {
+        children: vec![1],
+        rest: Some(root),
+        ..Node::default()
+    };
+    scene.nodes.insert(0, hook);
+
+    // Let the hips stand where they stood.
+    let back = matrix::inverse(&root.matrix()).expect("no flat node");
+    let hips = scene.nodes[1].rest.as_mut().expect("hips");
+    let [x, y, z] = hips.translation.map(f64::from);
+    hips.translation = std::array::from_fn(|i| {
+        (back[0][i] * x + back[1][i] * y + back[2][i] * z + back[3][i]) as f32
+    });
+    let turn = quaternion::unit(root.rotation);
+    hips.rotation = quaternion::multiply(quaternion::inverse(turn), hips.rotation);
+    hips.scale = root.scale.map(|scale| 1.0 / scale);
+    scene.set_pose(&crate::Pose::default()).expect("in range");
+    scene
+}
+
 fn played(scene: &Scene, motion: &Scene) -> (Scene, Vec<Notice>) {
     let motions = scene
         .clips_of(motion, &Limits::default())
@@ -68,14 +96,17 @@ proptest! {
     fn a_motion_looks_the_same_on_any_humanoid_of_the_shape(
         from in turns(), to in turns(), size in 0.3f32..4.0, time in -0.5f32..1.5,
         numbers in prop::collection::vec(-0.3f32..0.3, 37), kind in 0usize..3,
+        translation in prop::array::uniform3(-2f32..2.0), rotation in prop::array::uniform4(0.1f32..1.0),
+        scale in 0.3f32..3.0,
     ) {
         let kinds = [Interpolation::Step, Interpolation::Linear, Interpolation::CubicSpline];
         let mut motion = humanoid(1.0, &from);
         motion.clips = vec![clip(&motion, kinds[kind], &numbers)];
-        let (scene, notices) = played(&humanoid(size, &to), &motion);
+        let root = Transform { translation, rotation, scale: [scale; 3] };
+        let (scene, notices) = played(&hung(humanoid(size, &to), root), &motion);
         prop_assert_eq!(notices, vec![]);
         prop_assert_eq!(scene.clips[0].channels.len(), 6);
-        for (a, b) in places(&motion, time).into_iter().zip(places(&scene, time)) {
+        for (a, b) in places(&motion, time).into_iter().zip(places(&scene, time).into_iter().skip(1)) {
             for i in 0..3 {
                 prop_assert!((a[i] * size - b[i]).abs() < 2e-4 * size, "{a:?} x {size} and {b:?}");
             }
@@ -102,7 +133,7 @@ fn what_cannot_move_is_said() {
 
     // Hips at the ground have no height to measure by.
     let mut sunk = humanoid(1.0, &straight);
-    sunk.nodes[0].rest = Some(crate::Transform::default());
+    sunk.nodes[0].rest = Some(Transform::default());
     let (played, notices) = played(&sunk, &scene);
     assert_eq!(played.clips[0].channels.len(), 5);
     assert!(

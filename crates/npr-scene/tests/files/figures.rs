@@ -109,7 +109,7 @@ fn bones_and_morphs_are_those_of_three_vrm() {
         for said in list(&model["poses"]) {
             let file = poses.join(format!("{}.json", said["pose"].as_str().expect("a name")));
             let bytes = std::fs::read(file).expect("a pose");
-            let (posture, faults) = Posture::read(&bytes).expect("a posture");
+            let (posture, faults) = Posture::read(&bytes, &Limits::default()).expect("a posture");
             assert_eq!(faults, []);
             let mut pose = Pose::default();
             rest.bend(&mut pose, &posture);
@@ -386,7 +386,7 @@ fn binds_count_towards_the_memory_limit() {
 fn both_versions_stand_alike() {
     let posture = br#"{"pose":{"hips":{"position":[0.1,-0.2,0.3],"rotation":[0.1,0.2,0.3,0.9]},
         "leftUpperArm":{"rotation":[0.2,-0.1,-0.6,0.8]},"head":{"rotation":[0,0.4,0,0.9]}}}"#;
-    let (posture, _) = Posture::read(posture).expect("a posture");
+    let (posture, _) = Posture::read(posture, &Limits::default()).expect("a posture");
     let motion = load(GESTURE);
     let places = |vrm, time: Option<f32>| {
         let mut scene = load(&avatar(vrm));
