@@ -113,8 +113,8 @@ fn what_there_is_none_of_is_refused() {
         |code, arguments: &[&str], text: &str| place.npr(arguments).assert_fault(code, text);
     for command in ["render", "lines", "animate"] {
         let of = |scene, option, value| [command, scene, option, value];
-        let told = "the scene has no expression 'hapy'; it has 'happy', 'aa', 'Wink', 'blink'";
-        refused(2, &of("one.vrm", "--expression", "hapy"), told);
+        let told = "the scene has no expression 'hppy'; it has 'happy', 'aa', 'Wink', 'blink'";
+        refused(2, &of("one.vrm", "--expression", "hppy"), told);
         refused(
             2,
             &of("scene.obj", "--expression", "happy"),
@@ -227,7 +227,7 @@ fn what_of_a_pose_is_not_used_is_told() {
     let (rest, _) = drawn(&place, "render", "one.vrm", &[]);
     place.put(
         "odd.json",
-        br#"{"pose":{"leftUperArm":{},"head":{"rotation":[0,0,0]},"spine":{"position":[1,0,0]}}}"#,
+        br#"{"pose":{"leftUprArm":{},"head":{"rotation":[0,0,0]},"spine":{"position":[1,0,0]}}}"#,
     );
     let (picture, said) = drawn(&place, "render", "one.vrm", &["--pose", "odd.json"]);
     assert_eq!(picture, rest);
@@ -237,7 +237,7 @@ fn what_of_a_pose_is_not_used_is_told() {
     let wanted = [
         "the position of 'spine' is ignored: the hips alone are moved",
         "the rotation of 'head' is ignored: it is no list of four numbers that turn something",
-        "there is no bone 'leftUperArm': did you mean 'leftUpperArm'?",
+        "there is no bone 'leftUprArm': did you mean 'leftUpperArm'?",
     ];
     assert_eq!(said, wanted.map(|text| format!("{of}{text}")));
 

@@ -340,8 +340,8 @@ fn broken_expressions_are_left_out_and_told() {
     );
 
     // Names.
-    let unknown = "preset expression 'hapy' of the avatar is none that VRM 1.0 knows";
-    assert_eq!(binds(Vrm::One, "\"happy\":", "\"hapy\":", &[unknown]), None);
+    let unknown = "preset expression 'hppy' of the avatar is none that VRM 1.0 knows";
+    assert_eq!(binds(Vrm::One, "\"happy\":", "\"hppy\":", &[unknown]), None);
     let taken = "custom expression 'sad' of the avatar has a name of VRM's own";
     assert_eq!(
         binds(Vrm::One, "\"Wink\":", "\"sad\":", &[taken]),
