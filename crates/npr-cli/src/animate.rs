@@ -194,7 +194,8 @@ impl<'a> FilmJob<'a> {
     /// The frames of a film of a scene that was loaded.
     fn frames(&self, scene: &Scene) -> Result<Frameset, Fault> {
         let film = &self.args.film;
-        let playing = Playing::of(&self.args.drawing.pose, scene, film.fps)?;
+        let limits = self.args.drawing.limits.limits();
+        let playing = Playing::of(&self.args.drawing.pose, scene, film.fps, &limits)?;
         let plan = FilmPlan::new(film, playing.as_ref().map(Playing::duration_s))?;
         let Frames { first, last } = plan.frames;
         let target = match self.format {
@@ -271,7 +272,11 @@ impl<'a> FilmJob<'a> {
     fn tell_idle(&self, frames: &Frameset, progress: &Progress) {
         let is_timed = matches!(self.format, Format::Whole(_)) || frames.playing.is_some();
         let notices = idle::of_animate(self.args, self.lines.is_some(), is_timed);
-        progress.suspend(|| message::warn_all(self.args.drawing.quiet, notices));
+        let of_pose = frames.playing.iter().flat_map(Playing::warnings);
+        progress.suspend(|| {
+            message::warn_all(self.args.drawing.quiet, of_pose);
+            message::warn_all(self.args.drawing.quiet, notices);
+        });
     }
 }
 

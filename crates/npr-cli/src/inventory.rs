@@ -6,7 +6,7 @@ mod words;
 pub use volume::VolumeInventory;
 
 use crate::source::Loaded;
-use npr_scene::{AlphaMode, Format, LightKind, Projection, Scene};
+use npr_scene::{AlphaMode, Format, LightKind, Override, Projection, Scene};
 use serde::Serialize;
 
 /// The contents of a scene: what it holds, what is drawn and what is ignored.
@@ -37,6 +37,12 @@ pub struct Inventory {
     lights: Vec<Named>,
     skins: Vec<Skin>,
     clips: Vec<Clip>,
+    /// Bones of a VRM, or of a motion for VRMs, in the order of VRM.
+    bones: Vec<Bone>,
+    /// Expressions of a VRM.
+    expressions: Vec<Expression>,
+    /// Names of the expressions that a motion for VRMs moves.
+    moved_expressions: Vec<String>,
     extensions: Vec<String>,
     /// What was ignored or mended, and why.
     ignored: Vec<String>,
@@ -96,6 +102,46 @@ struct Clip {
     channel_count: usize,
 }
 
+/// A bone under the name that `--pose` takes.
+#[derive(Debug, Clone, Serialize)]
+struct Bone {
+    name: &'static str,
+    /// Name of its node.
+    node: String,
+}
+
+/// An expression under the name that `--expression` takes.
+#[derive(Debug, Clone, Serialize)]
+struct Expression {
+    name: String,
+    /// What the file calls it.
+    file_name: String,
+    binary: bool,
+    morphs: Vec<MorphBind>,
+    /// Materials whose base colours it changes.
+    colors: Vec<String>,
+    /// Materials whose textures it shifts.
+    textures: Vec<String>,
+    overrides: Overrides,
+}
+
+/// What an expression does to others of a kind: `none`, `block` or `blend`.
+#[derive(Debug, Clone, Serialize)]
+struct Overrides {
+    blinks: &'static str,
+    looks: &'static str,
+    mouths: &'static str,
+}
+
+/// A morph that an expression moves.
+#[derive(Debug, Clone, Serialize)]
+struct MorphBind {
+    /// Name of the node that draws it.
+    node: String,
+    morph: u32,
+    weight: f32,
+}
+
 impl Inventory {
     /// The inventory of a scene from the file that the user named `file`.
     pub fn new(file: &str, loaded: Loaded) -> Self {
@@ -125,6 +171,9 @@ impl Inventory {
             lights: lights(&scene),
             skins: scene.skins.iter().map(skin).collect(),
             clips: scene.clips.iter().map(clip).collect(),
+            bones: bones(&scene),
+            expressions: expressions(&scene),
+            moved_expressions: moved_expressions(&scene),
             ignored: ignored(&scene),
             name: scene.name,
             generator: scene.generator,
@@ -138,6 +187,7 @@ fn format_name(format: Option<Format>, scene: &Scene) -> &'static str {
     match format {
         Some(Format::Glb | Format::Gltf) if uses("VRMC_vrm") => "VRM 1.0",
         Some(Format::Glb | Format::Gltf) if uses("VRM") => "VRM 0.x",
+        Some(Format::Glb | Format::Gltf) if uses("VRMC_vrm_animation") => "VRM animation",
         Some(Format::Glb) => "binary glTF",
         Some(Format::Gltf) => "glTF",
         Some(Format::Obj) => "OBJ",
@@ -244,4 +294,69 @@ fn clip(clip: &npr_scene::Clip) -> Clip {
         duration_s: clip.duration_s(),
         channel_count: clip.channels.len(),
     }
+}
+
+fn node_name(scene: &Scene, node: u32) -> String {
+    let node = scene.nodes.get(node as usize);
+    node.map(|node| node.name.clone()).unwrap_or_default()
+}
+
+fn bones(scene: &Scene) -> Vec<Bone> {
+    let bones = scene.figure.iter().flat_map(|figure| &figure.bones);
+    let bone = |(bone, node): (&npr_scene::Bone, &u32)| Bone {
+        name: bone.name(),
+        node: node_name(scene, *node),
+    };
+    bones.map(bone).collect()
+}
+
+fn moved_expressions(scene: &Scene) -> Vec<String> {
+    let figure = scene.figure.iter();
+    let shares = figure.flat_map(|figure| &figure.share_nodes);
+    shares.map(|(name, _)| name.clone()).collect()
+}
+
+fn expressions(scene: &Scene) -> Vec<Expression> {
+    let overriding = |does| match does {
+        Override::None => "none",
+        Override::Block => "block",
+        Override::Blend => "blend",
+    };
+    let material = |index: u32| {
+        let material = scene.materials.get(index as usize);
+        material
+            .map(|material| material.name.clone())
+            .unwrap_or_default()
+    };
+    let faces = scene.figure.iter().flat_map(|figure| &figure.expressions);
+    let expression = |face: &npr_scene::Expression| Expression {
+        name: face.name.clone(),
+        file_name: face.file_name.clone(),
+        binary: face.is_binary,
+        morphs: face
+            .morphs
+            .iter()
+            .map(|bind| MorphBind {
+                node: node_name(scene, bind.node),
+                morph: bind.morph,
+                weight: bind.weight,
+            })
+            .collect(),
+        colors: face
+            .colors
+            .iter()
+            .map(|bind| material(bind.material))
+            .collect(),
+        textures: face
+            .textures
+            .iter()
+            .map(|bind| material(bind.material))
+            .collect(),
+        overrides: Overrides {
+            blinks: overriding(face.of_blinks),
+            looks: overriding(face.of_looks),
+            mouths: overriding(face.of_mouths),
+        },
+    };
+    faces.map(expression).collect()
 }

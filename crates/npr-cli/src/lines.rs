@@ -26,7 +26,7 @@ use npr_gpu::engine::{Engine, PassTime};
 use npr_render::{
     Drawing, Kind, LineModel, LineModelOptions, LineRenderer, LineSource, Model, Smoke, facts_of,
 };
-use npr_scene::Scene;
+use npr_scene::{Limits, Scene};
 use npr_stylesheet::Background;
 use std::io::Write;
 
@@ -137,17 +137,18 @@ impl Prepared {
     fn pose(
         &mut self,
         args: &PoseArguments,
+        limits: &Limits,
         progress: &mut Progress,
     ) -> Result<Vec<String>, Fault> {
-        let warnings = pose::pose(args, &mut self.scene)?;
-        if pose::clip_of(args, &self.scene)?.is_some() {
+        let posed = pose::pose(args, &mut self.scene, limits)?;
+        if posed.is_posed {
             progress.step("pose", || {
                 self.lines.set_pose(&self.scene)?;
                 let behind = self.behind.as_mut();
                 behind.map_or(Ok(()), |model| model.set_pose(&self.scene))
             })?;
         }
-        Ok(warnings)
+        Ok(posed.warnings)
     }
 
     /// A renderer of its lines.
@@ -205,12 +206,16 @@ pub fn tell_engine(job: &LineJob<'_>, engine: &str, progress: &Progress) {
     }
 }
 
-/// Loads the scene of a job.
+/// Loads the scene of a job, with the clips and expressions that the user gives it.
 pub fn load(job: &LineJob<'_>, progress: &mut Progress) -> Result<Loaded, Fault> {
     let external = job.args.drawing.allow_external.as_deref();
-    progress.step("load", || match job.args.built_in() {
-        Some(source) => Ok(Loaded::of_smoke(source)),
-        None => job.source.load(&job.limits, external),
+    progress.step("load", || {
+        let mut loaded = match job.args.built_in() {
+            Some(source) => Loaded::of_smoke(source),
+            None => job.source.load(&job.limits, external)?,
+        };
+        pose::dress(&job.args.drawing.pose, &mut loaded, &job.limits)?;
+        Ok(loaded)
     })
 }
 
@@ -244,7 +249,7 @@ pub fn prepare(
 
     // Pose it.
     let of_pose = match pose {
-        Some(args) => prepared.pose(args, progress)?,
+        Some(args) => prepared.pose(args, &job.limits, progress)?,
         None => Vec::new(),
     };
 

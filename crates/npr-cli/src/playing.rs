@@ -2,11 +2,11 @@
 
 use crate::arguments::PoseArguments;
 use crate::fault::Fault;
-use crate::pose;
+use crate::pose::{self, Stance};
 use crate::viewpoint::Staged;
 use npr_core::camera::{Camera, bounds_of, box_corners};
 use npr_render::Smoke;
-use npr_scene::{Clip, Scene};
+use npr_scene::{Limits, Scene};
 
 /// Fewest and most moments of a clip that a camera is placed by.
 const LOOKS: [usize; 2] = [8, 32];
@@ -17,31 +17,48 @@ const LOOKED_AT: usize = 2_000_000;
 /// The clip that plays in a film.
 #[derive(Debug, Clone)]
 pub struct Playing {
-    clip: Clip,
+    stance: Stance,
+    duration_s: f32,
     fps: f32,
 }
 
 impl Playing {
     /// The clip of `scene` that plays at `fps` frames a second: the one that the user asked for, else the first. None
     /// where there is none, and where `--time` holds the pose still.
-    pub fn of(args: &PoseArguments, scene: &Scene, fps: f32) -> Result<Option<Self>, Fault> {
+    pub fn of(
+        args: &PoseArguments,
+        scene: &Scene,
+        fps: f32,
+        limits: &Limits,
+    ) -> Result<Option<Self>, Fault> {
         if args.time.is_some() {
             return Ok(None);
         }
         let asked = pose::clip_of(args, scene)?;
-        let clip = asked.or(scene.clips.first()).cloned();
-        Ok(clip.map(|clip| Self { clip, fps }))
+        let Some(clip) = asked.or(scene.clips.first()) else {
+            return Ok(None);
+        };
+        Ok(Some(Self {
+            stance: Stance::of(args, scene, Some(clip), limits)?,
+            duration_s: clip.duration_s(),
+            fps,
+        }))
     }
 
     /// How long the clip is, in seconds.
     pub fn duration_s(&self) -> f32 {
-        self.clip.duration_s()
+        self.duration_s
+    }
+
+    /// What there is to warn of, whatever the frame.
+    pub fn warnings(&self) -> &[String] {
+        &self.stance.warnings
     }
 
     /// Poses the scene as it stands in a frame, and gives what there is to warn of.
     pub fn pose(&self, scene: &mut Scene, frame: u32) -> Option<String> {
         let time_s = f64::from(frame) / f64::from(self.fps);
-        pose::stand(scene, &self.clip, time_s as f32)
+        self.stance.stand(scene, time_s as f32)
     }
 
     /// What is seen of the scene in the whole clip, with the smoke in it: a camera that is placed by it stands still,
@@ -53,7 +70,7 @@ impl Playing {
         let mut points = Vec::new();
         for look in 0..looks {
             let share = look as f32 / (looks - 1) as f32;
-            let _ = pose::stand(&mut scene, &self.clip, share * self.duration_s());
+            let _ = self.stance.stand(&mut scene, share * self.duration_s);
             for (node, part) in scene.drawn_parts() {
                 let placed = scene.positions_world(node, part);
                 let mut used = vec![false; placed.len()];

@@ -1,54 +1,257 @@
 //! Puts a scene into the pose that the user asked for.
 
-use crate::arguments::PoseArguments;
+use crate::arguments::{ExpressionShare, PoseArguments};
 use crate::fault::{Exit, Fault};
-use crate::message;
-use npr_scene::{Clip, Scene};
+use crate::input::read_file;
+use crate::message::{self, quoted};
+use crate::source::{Loaded, Source};
+use npr_scene::{
+    Bone, Clip, Limits, MotionError, Notice, Pose, Posture, PostureError, PostureFault, Property,
+    Scene,
+};
+use std::collections::BTreeMap;
+use std::path::Path;
 
-/// Most clips that a message lists.
-const LISTED_CLIPS: usize = 5;
+/// Most names that a message lists.
+const LISTED: usize = 5;
 
 /// Longest name that is compared with what was asked for, in bytes.
 const COMPARED_MAX: usize = 64;
 
-/// Poses the scene at the time of the clip that the user asked for, and gives what there is to warn of.
-///
-/// A pose that would carry something out of range is one: the scene rests then.
-pub fn pose(args: &PoseArguments, scene: &mut Scene) -> Result<Vec<String>, Fault> {
-    let Some(clip) = clip_of(args, scene)? else {
-        return Ok(why_at_rest(args, scene.clips.len()).into_iter().collect());
+/// Gives a scene that was loaded what the user brings along: the clips of a motion, and the colours of expressions,
+/// which stand still. The files of both, and of the pose, are among its inputs then.
+pub fn dress(args: &PoseArguments, loaded: &mut Loaded, limits: &Limits) -> Result<(), Fault> {
+    loaded.inputs.extend(args.pose.clone());
+    if let Some(path) = &args.motion {
+        take_motion(path, loaded, limits)?;
+    }
+    let shares = shares_of(&args.expressions, &loaded.scene)?;
+    loaded.scene.paint_expressions(&shares);
+    Ok(())
+}
+
+/// Lets a scene have the clips of a motion instead of its own.
+fn take_motion(path: &Path, loaded: &mut Loaded, limits: &Limits) -> Result<(), Fault> {
+    // Read it, without its pictures.
+    let limits = Limits {
+        decode_images: false,
+        ..*limits
     };
-    let clip = clip.clone();
-    Ok(stand(scene, &clip, args.time.unwrap_or(0.0))
+    let motion = Source::of(path).load(&limits, None)?;
+    let scene = &mut loaded.scene;
+    let played = scene.clips_of(&motion.scene, &limits).map_err(|fault| {
+        let exit = match fault {
+            MotionError::NoBones => Exit::Usage,
+            MotionError::Limit(_) => Exit::Limit,
+            _ => Exit::Input,
+        };
+        Fault::new(exit, fault).while_doing(format_args!("cannot play {}", quoted(path)))
+    })?;
+    loaded.inputs.extend(motion.inputs);
+
+    // Say what of it is not used.
+    let told = motion.scene.notices.into_iter().chain(played.notices);
+    scene.notices.extend(told.map(|notice| Notice {
+        text: format!("motion {}: {notice}", quoted(path)),
+    }));
+    let channels = played.clips.iter().flat_map(|clip| &clip.channels);
+    let shares = channels.filter(|channel| channel.property == Property::Share);
+    let faces = scene.figure.iter().flat_map(|figure| &figure.expressions);
+    let faces: Vec<_> = faces.collect();
+    let is_painted = |number: u32| {
+        let face = faces.get(number as usize);
+        face.is_some_and(|face| !face.colors.is_empty() || !face.textures.is_empty())
+    };
+    if shares.map(|channel| channel.node).any(is_painted) {
+        scene.notices.push(Notice {
+            text: format!(
+                "motion {}: expressions of motions change no colours",
+                quoted(path)
+            ),
+        });
+    }
+    scene.clips = played.clips;
+    Ok(())
+}
+
+/// How the user has a scene stand: a clip, bones that are bent besides, and expressions.
+#[derive(Debug, Clone, Default)]
+pub struct Stance {
+    clip: Option<Clip>,
+    posture: Option<Posture>,
+    /// Shares of expressions, by number.
+    shares: BTreeMap<u32, f32>,
+    /// What there is to warn of.
+    pub warnings: Vec<String>,
+}
+
+impl Stance {
+    /// The stance that the user asked for, in a clip of the scene or without one.
+    pub fn of(
+        args: &PoseArguments,
+        scene: &Scene,
+        clip: Option<&Clip>,
+        limits: &Limits,
+    ) -> Result<Self, Fault> {
+        let mut stance = Self {
+            clip: clip.cloned(),
+            shares: shares_of(&args.expressions, scene)?,
+            ..Self::default()
+        };
+        if let Some(path) = &args.pose {
+            let (posture, warnings) = posture_of(path, scene, limits)?;
+            (stance.posture, stance.warnings) = (Some(posture), warnings);
+        }
+        Ok(stance)
+    }
+
+    /// Whether it is the pose at rest.
+    fn is_rest(&self) -> bool {
+        self.clip.is_none() && self.posture.is_none() && self.shares.is_empty()
+    }
+
+    /// Puts the scene into it at a time of the clip, in seconds, and gives what there is to warn of: a pose that would
+    /// carry something out of range is not taken.
+    pub fn stand(&self, scene: &mut Scene, time_s: f32) -> Option<String> {
+        let clip = self.clip.as_ref();
+        let mut pose = clip.map_or_else(Pose::default, |clip| scene.pose_at(clip, time_s));
+        if let Some(posture) = &self.posture {
+            scene.bend(&mut pose, posture);
+        }
+        pose.shares.extend(&self.shares);
+        let fault = scene.set_pose(&pose).err()?;
+        Some(match clip {
+            Some(clip) => {
+                let name = message::name(&clip.name);
+                format!("clip '{name}' is not played: {fault}")
+            }
+            None => format!("the scene rests: {fault}"),
+        })
+    }
+}
+
+/// A scene that was posed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Posed {
+    /// Whether the user asked for another pose than the one at rest.
+    pub is_posed: bool,
+    /// What there is to warn of.
+    pub warnings: Vec<String>,
+}
+
+/// Poses the scene as the user asked for.
+pub fn pose(args: &PoseArguments, scene: &mut Scene, limits: &Limits) -> Result<Posed, Fault> {
+    let clip = clip_of(args, scene)?;
+    let stance = Stance::of(args, scene, clip, limits)?;
+    let is_posed = !stance.is_rest();
+    let mut warnings = stance.warnings.clone();
+    if clip.is_none() {
+        warnings.extend(why_at_rest(args, scene.clips.len(), is_posed));
+    }
+    warnings.extend(stance.stand(scene, args.time.unwrap_or(0.0)));
+    Ok(Posed { is_posed, warnings })
+}
+
+/// Warns of what needs a figure, for a picture without any scene.
+pub fn pose_of_nothing(args: &PoseArguments) -> Result<Vec<String>, Fault> {
+    let nothing = Scene::default();
+    clip_of(args, &nothing)?;
+    shares_of(&args.expressions, &nothing)?;
+    let files = [("--motion", &args.motion), ("--pose", &args.pose)];
+    let said = files.into_iter().filter(|(_, file)| file.is_some());
+    let ignored = said.map(|(option, _)| format!("{option} is ignored: there is no scene"));
+    Ok(why_at_rest(args, 0, false)
         .into_iter()
+        .chain(ignored)
         .collect())
 }
 
-/// Poses the scene at a time of one of its clips, in seconds, and gives what there is to warn of.
-pub fn stand(scene: &mut Scene, clip: &Clip, time_s: f32) -> Option<String> {
-    let pose = scene.pose_at(clip, time_s);
-    let name = message::name(&clip.name);
-    let fault = scene.set_pose(&pose).err()?;
-    Some(format!("clip '{name}' is not played: {fault}"))
-}
-
-/// The clip that the user asked for; the first one for a time alone; none where the scene rests.
+/// The clip that the user asked for; the first one for a time or a motion alone; none where the scene rests.
 pub fn clip_of<'a>(args: &PoseArguments, scene: &'a Scene) -> Result<Option<&'a Clip>, Fault> {
     let clips = &scene.clips;
     let Some(asked) = &args.clip else {
-        return Ok(clips.first().filter(|_| args.time.is_some()));
+        let plays = args.time.is_some() || args.motion.is_some();
+        return Ok(clips.first().filter(|_| plays));
     };
     let named = clips.iter().find(|clip| clip.name == *asked);
     let numbered = || clips.get(asked.parse::<usize>().ok()?);
     let found = named.or_else(numbered);
-    found.map(Some).ok_or_else(|| unknown_clip(asked, clips))
+    found.map(Some).ok_or_else(|| {
+        let names = clips.iter().map(|clip| clip.name.as_str());
+        unknown("clip", asked, names)
+    })
 }
 
-/// What a user may want to know of a scene with so many clips that rests.
-fn why_at_rest(args: &PoseArguments, clip_count: usize) -> Option<String> {
+/// The shares that the user gives expressions of a scene, by number; of two for one the last counts.
+fn shares_of(asked: &[ExpressionShare], scene: &Scene) -> Result<BTreeMap<u32, f32>, Fault> {
+    let figure = scene.figure.as_ref();
+    let share = |ExpressionShare { name, share }: &ExpressionShare| {
+        let found = figure.and_then(|figure| figure.expression(name));
+        let number = found.ok_or_else(|| {
+            let all = figure.iter().flat_map(|figure| &figure.expressions);
+            unknown("expression", name, all.map(|face| face.name.as_str()))
+        })?;
+        Ok((number, *share))
+    };
+    asked.iter().map(share).collect()
+}
+
+/// The posture in a file, and what there is to warn of.
+fn posture_of(
+    path: &Path,
+    scene: &Scene,
+    limits: &Limits,
+) -> Result<(Posture, Vec<String>), Fault> {
+    // Read it.
+    if scene.bones().is_empty() {
+        let fault = Fault::new(Exit::Usage, MotionError::NoBones);
+        return Err(fault.while_doing(format_args!("cannot take the pose {}", quoted(path))));
+    }
+    let bytes = read_file(path, limits.file_bytes)?;
+    let (posture, faults) = Posture::read(&bytes, limits).map_err(|fault| {
+        let exit = match fault {
+            PostureError::Limit(_) => Exit::Limit,
+            _ => Exit::Input,
+        };
+        Fault::new(exit, fault).while_doing(format_args!("cannot read {}", quoted(path)))
+    })?;
+
+    // Say what is wrong with it.
+    let told = faults.iter().take(LISTED).map(|fault| {
+        let what = match fault {
+            PostureFault::UnknownBone(name) => {
+                let near = nearest(name, Bone::all().map(Bone::name));
+                let near = near.first().copied().unwrap_or_default();
+                format!("there is no bone '{}': did you mean '{near}'?", message::name(name))
+            }
+            PostureFault::BadRotation(bone) => {
+                format!("the rotation of '{bone}' is ignored: it is no list of four numbers that turn something")
+            }
+            PostureFault::BadPosition(bone) => {
+                format!("the position of '{bone}' is ignored: it is no list of three numbers")
+            }
+            PostureFault::MovedBone(bone) => {
+                format!("the position of '{bone}' is ignored: the hips alone are moved")
+            }
+            _ => "something is ignored".to_owned(),
+        };
+        format!("pose {}: {what}", quoted(path))
+    });
+    let mut warnings: Vec<String> = told.collect();
+    if faults.len() > LISTED {
+        let more = faults.len() - LISTED;
+        warnings.push(format!("pose {}: {more} more are ignored", quoted(path)));
+    }
+    Ok((posture, warnings))
+}
+
+/// What a user may want to know of a scene with so many clips of which none plays; `is_posed` is whether something else
+/// poses it.
+fn why_at_rest(args: &PoseArguments, clip_count: usize, is_posed: bool) -> Option<String> {
     match (args.time, clip_count) {
         (Some(_), _) => Some("--time is ignored: the scene has no clips".to_owned()),
         (None, 0) => None,
+        (None, _) if is_posed => None,
         (None, 1) => {
             Some("the scene rests: it has a clip, which --clip or --time plays".to_owned())
         }
@@ -58,27 +261,33 @@ fn why_at_rest(args: &PoseArguments, clip_count: usize) -> Option<String> {
     }
 }
 
-/// The fault for a name or number that no clip has; lists those that are most like it first.
-fn unknown_clip(asked: &str, clips: &[Clip]) -> Fault {
-    let slips = |clip: &&Clip| match clip.name.len().max(asked.len()) > COMPARED_MAX {
+/// Names in the order of how much they are like a name.
+fn nearest<'a>(asked: &str, names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
+    let slips = |name: &&str| match name.len().max(asked.len()) > COMPARED_MAX {
         true => usize::MAX,
-        false => strsim::osa_distance(&asked.to_lowercase(), &clip.name.to_lowercase()),
+        false => strsim::osa_distance(&asked.to_lowercase(), &name.to_lowercase()),
     };
-    let mut nearest: Vec<&Clip> = clips.iter().collect();
+    let mut nearest: Vec<&str> = names.collect();
     nearest.sort_by_cached_key(slips);
-    let names = nearest.iter().take(LISTED_CLIPS);
+    nearest
+}
+
+/// The fault for a name or number that no such thing of the scene has; lists those that are most like it first.
+fn unknown<'a>(what: &str, asked: &str, names: impl Iterator<Item = &'a str>) -> Fault {
+    let nearest = nearest(asked, names);
+    let names = nearest.iter().take(LISTED);
     let listed: Vec<String> = names
-        .map(|clip| format!("'{}'", message::name(&clip.name)))
+        .map(|name| format!("'{}'", message::name(name)))
         .collect();
-    let there_are = match clips.len() {
+    let there_are = match nearest.len() {
         0 => "it has none".to_owned(),
-        1..=LISTED_CLIPS => format!("it has {}", listed.join(", ")),
+        1..=LISTED => format!("it has {}", listed.join(", ")),
         count => format!("it has {count}, such as {}", listed.join(", ")),
     };
     let asked = message::name(asked);
     Fault::new(
         Exit::Usage,
-        format!("the scene has no clip '{asked}'; {there_are}"),
+        format!("the scene has no {what} '{asked}'; {there_are}"),
     )
 }
 
@@ -101,6 +310,7 @@ mod tests {
         PoseArguments {
             clip: clip.map(str::to_owned),
             time,
+            ..PoseArguments::default()
         }
     }
 
@@ -142,7 +352,9 @@ mod tests {
 
     #[test]
     fn a_scene_at_rest_is_told_of_once_it_has_clips() {
-        let told = |names: &[&str], args: &PoseArguments| pose(args, &mut scene(names));
+        let told = |names: &[&str], args: &PoseArguments| {
+            pose(args, &mut scene(names), &Limits::default()).map(|posed| posed.warnings)
+        };
         let rest = PoseArguments::default();
         assert_eq!(told(&[], &rest), Ok(vec![]));
         assert_eq!(told(&["a"], &asked(None, Some(1.0))), Ok(vec![]));

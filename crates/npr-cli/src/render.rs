@@ -156,11 +156,15 @@ pub fn prepared(
     Ok(Subject { model, lines })
 }
 
-/// Loads the scene of a job.
+/// Loads the scene of a job, with the clips and expressions that the user gives it.
 pub fn load(job: &Job<'_>, progress: &mut Progress) -> Result<Loaded, Fault> {
     let limits = job.args.drawing.limits.limits();
     let external = job.args.drawing.allow_external.as_deref();
-    progress.step("load", || job.source.load(&limits, external))
+    progress.step("load", || {
+        let mut loaded = job.source.load(&limits, external)?;
+        pose::dress(&job.args.drawing.pose, &mut loaded, &limits)?;
+        Ok(loaded)
+    })
 }
 
 /// A scene with smoke in it, ready to be drawn.
@@ -240,8 +244,8 @@ pub fn prepare(
     // Pose the scene.
     let (mut of_pose, mut is_posed) = (Vec::new(), false);
     if let Some(args) = pose {
-        of_pose = pose::pose(args, &mut scene)?;
-        is_posed = pose::clip_of(args, &scene)?.is_some();
+        let posed = pose::pose(args, &mut scene, &limits)?;
+        (of_pose, is_posed) = (posed.warnings, posed.is_posed);
     }
 
     // Warn about what was mended, and about keys and options that have no effect.

@@ -127,8 +127,8 @@ fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Vec<PassTime>>, 
         // Volumes have no cameras, so fail before the smoke is computed.
         return Err(unknown_camera(name, &[]));
     }
-    let mut nothing = npr_scene::Scene::default();
-    let of_pose = pose::pose(&job.args.drawing.pose, &mut nothing)?;
+    let nothing = npr_scene::Scene::default();
+    let of_pose = pose::pose_of_nothing(&job.args.drawing.pose)?;
     let limits = job.args.drawing.limits.limits();
     let source = match &job.source {
         Source::File(path) => VolumeSource::of(path),

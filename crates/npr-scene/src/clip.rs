@@ -22,7 +22,7 @@ pub struct Clip {
 /// One property of one node over time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Channel {
-    /// The node that moves.
+    /// The node that moves; of [`Property::Share`] the expression of the scene's figure.
     pub node: u32,
     /// What of it moves.
     pub property: Property,
@@ -46,6 +46,8 @@ pub enum Property {
     Scale,
     /// The weights of the mesh's morphs, one each.
     Weights,
+    /// The share of an expression, one number.
+    Share,
 }
 
 /// How a curve runs from key to key.
@@ -116,14 +118,14 @@ impl Channel {
         value
     }
 
-    /// Puts the value at a time into the property of a transform; weights have none.
+    /// Puts the value at a time into the property of a transform; weights and shares have none.
     pub(crate) fn apply(&self, time_s: f32, transform: &mut Transform) {
         let value = self.value_at(time_s);
         match self.property {
             Property::Translation => put(&mut transform.translation, &value),
             Property::Rotation => put(&mut transform.rotation, &value),
             Property::Scale => put(&mut transform.scale, &value),
-            Property::Weights => {}
+            Property::Weights | Property::Share => {}
         }
     }
 
@@ -200,6 +202,7 @@ impl Channel {
             Property::Translation | Property::Scale => assert_eq!(self.width(), 3),
             Property::Rotation => assert_eq!(self.width(), 4),
             Property::Weights => assert!(self.width() > 0, "weights"),
+            Property::Share => assert_eq!(self.width(), 1),
         }
     }
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 /// A file format of scenes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
-    /// glTF 2.0 in one binary file; also VRM 0.x and 1.0.
+    /// glTF 2.0 in one binary file; also VRM 0.x and 1.0, and VRM animations.
     Glb,
     /// glTF 2.0 as JSON text.
     Gltf,
@@ -27,7 +27,7 @@ impl Format {
     pub fn of_path(path: &Path) -> Option<Self> {
         let extension = path.extension()?.to_str()?.to_ascii_lowercase();
         match extension.as_str() {
-            "glb" | "vrm" => Some(Self::Glb),
+            "glb" | "vrm" | "vrma" => Some(Self::Glb),
             "gltf" => Some(Self::Gltf),
             "obj" => Some(Self::Obj),
             "stl" => Some(Self::Stl),

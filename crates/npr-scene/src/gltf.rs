@@ -9,6 +9,7 @@ pub(crate) mod clip;
 pub(crate) mod container;
 pub(crate) mod document;
 pub(crate) mod error;
+pub(crate) mod figure;
 pub(crate) mod light;
 pub(crate) mod material;
 pub(crate) mod mesh;
@@ -66,6 +67,7 @@ fn read_document(
         ..Scene::default()
     };
     scene.clips = clip::read(&accessors, &tree, &scene.nodes, loading)?;
+    scene.figure = figure::read(&root, &tree, &scene.nodes, loading)?;
     mesh::read(&accessors, &tree, &mut scene, loading)?;
     skin::read(&accessors, &tree, &mut scene, loading)?;
     viewpoint::read(&root, &tree, &mut scene, loading);

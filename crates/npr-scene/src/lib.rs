@@ -16,16 +16,22 @@
 //! ```
 //!
 //! Clips of a glTF file move its nodes: [`Scene::pose_at`] gives a [`Pose`] at a time of a [`Clip`], and
-//! [`Scene::set_pose`] puts the scene into it.
+//! [`Scene::set_pose`] puts the scene into it. The [`Figure`] of a VRM names bones and expressions: [`Scene::bend`] and
+//! [`Pose::shares`] pose them, and [`Scene::clips_of`] makes clips of another humanoid its own.
 //!
 //! Files are hostile until proven sound: sizes are checked against [`Limits`] before memory is
 //! planned, trees are walked without recursion, and other files are reached only through
 //! [`Resources`], which [`FolderResources`] confines to the scene's own folder.
 
+mod bending;
+mod bone;
 mod camera;
 mod clip;
 mod decode;
 mod error;
+mod expressing;
+mod expression;
+mod figure;
 mod format;
 mod gltf;
 mod image;
@@ -38,6 +44,7 @@ mod matrix;
 mod mesh;
 mod morph;
 mod morphing;
+mod motion;
 mod node;
 mod notice;
 mod obj;
@@ -45,6 +52,8 @@ mod ply;
 mod polygon;
 mod pool;
 mod pose;
+mod posture;
+mod quaternion;
 mod reach;
 mod resources;
 mod scene;
@@ -60,9 +69,12 @@ mod transform;
 mod uri;
 mod words;
 
+pub use bone::Bone;
 pub use camera::{Camera, Projection};
 pub use clip::{Channel, Clip, Interpolation, Property};
 pub use error::SceneError;
+pub use expression::{ColorBind, Expression, MorphBind, Override, TextureBind};
+pub use figure::Figure;
 pub use format::Format;
 pub use gltf::{GltfError, Item};
 pub use image::Image;
@@ -73,11 +85,13 @@ pub use material::{AlphaMode, Material, TextureTransform, TextureUse, Wrap};
 pub use matrix::Matrix;
 pub use mesh::{Mesh, POSITION_LIMIT, Part};
 pub use morph::{Morph, Unmorphed};
+pub use motion::{MotionError, Motions};
 pub use node::Node;
 pub use notice::Notice;
 pub use obj::{Element as ObjElement, ObjError};
 pub use ply::PlyError;
 pub use pose::{Pose, PoseError};
+pub use posture::{Posture, PostureError, PostureFault};
 pub use resources::{FolderResources, MemoryResources, ResourceError, Resources};
 pub use scene::Scene;
 pub use skin::Skin;

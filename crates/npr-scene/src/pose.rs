@@ -22,6 +22,9 @@ pub struct Pose {
     /// Weights of the morphs of nodes' meshes, by node; missing ones at the end count as 0. Of nodes that share a
     /// mesh the last one counts; nodes whose weights a clip of the file moves share none.
     pub weights: BTreeMap<u32, Vec<f32>>,
+    /// Shares of expressions of the scene's figure, 0 to 1, by number. Where there are any, expressions alone decide on
+    /// the morphs that any of them binds, and `weights` on the others.
+    pub shares: BTreeMap<u32, f32>,
 }
 
 /// Why a scene cannot be put into a pose.
@@ -50,19 +53,19 @@ impl Scene {
     pub fn pose_at(&self, clip: &Clip, time_s: f32) -> Pose {
         let mut pose = Pose::default();
         for channel in &clip.channels {
-            if channel.property == Property::Weights {
-                pose.weights.insert(channel.node, channel.value_at(time_s));
-                continue;
+            let value = || channel.value_at(time_s);
+            match channel.property {
+                Property::Weights => drop(pose.weights.insert(channel.node, value())),
+                Property::Share => pose
+                    .shares
+                    .extend(value().first().map(|share| (channel.node, *share))),
+                Property::Translation | Property::Rotation | Property::Scale => {
+                    let rest = self.nodes.get(channel.node as usize);
+                    let rest = rest.and_then(|node| node.rest).unwrap_or_default();
+                    let transform = pose.transforms.entry(channel.node).or_insert(rest);
+                    channel.apply(time_s, transform);
+                }
             }
-            let rest = self
-                .nodes
-                .get(channel.node as usize)
-                .and_then(|node| node.rest);
-            let transform = pose.transforms.entry(channel.node);
-            channel.apply(
-                time_s,
-                transform.or_insert_with(|| rest.unwrap_or_default()),
-            );
         }
         pose
     }
@@ -100,8 +103,9 @@ impl Scene {
     /// The vertices of all parts whose morphs get other weights.
     fn morphs_of(&self, pose: &Pose) -> Result<Vec<NewMorphs>, PoseError> {
         // Find the weights that meshes are given.
+        let weights = self.expressed(&pose.shares, &pose.weights);
         let mut given: BTreeMap<u32, &[f32]> = BTreeMap::new();
-        for (node, weights) in &pose.weights {
+        for (node, weights) in &weights {
             let mesh = self.nodes.get(*node as usize).and_then(|node| node.mesh);
             given.extend(mesh.map(|mesh| (mesh, weights.as_slice())));
         }

@@ -1,7 +1,8 @@
 //! A loaded scene: plain data whose indices are all in range.
 
 use crate::camera::Camera;
-use crate::clip::Clip;
+use crate::clip::{Clip, Property};
+use crate::figure::Figure;
 use crate::image::Image;
 use crate::light::Light;
 use crate::material::Material;
@@ -36,6 +37,8 @@ pub struct Scene {
     pub skins: Vec<Skin>,
     /// Movements of nodes, in the order of the file.
     pub clips: Vec<Clip>,
+    /// What VRM says of the avatar, or of the motion; none where the file is no VRM.
+    pub figure: Option<Figure>,
     /// What was ignored or mended, each thing once.
     pub notices: Vec<Notice>,
     /// Names of the glTF extensions that the file says it uses.
@@ -152,7 +155,41 @@ impl Scene {
         // Check clips.
         for channel in self.clips.iter().flat_map(|clip| &clip.channels) {
             channel.sanity_check();
-            assert_in(Some(channel.node), self.nodes.len(), "node of a channel");
+            let count = match channel.property {
+                Property::Share => self.expressions().len(),
+                _ => self.nodes.len(),
+            };
+            assert_in(Some(channel.node), count, "what a channel moves");
+        }
+        self.figure
+            .iter()
+            .for_each(|figure| self.check_figure(figure));
+    }
+
+    fn check_figure(&self, figure: &Figure) {
+        let shares = figure.share_nodes.iter().map(|(_, node)| *node);
+        for node in figure
+            .bones
+            .values()
+            .copied()
+            .chain(shares)
+            .chain(figure.morphed_nodes())
+        {
+            assert_in(Some(node), self.nodes.len(), "node of a figure");
+        }
+        for expression in &figure.expressions {
+            assert!(
+                expression.morphs.iter().all(|bind| bind.weight.is_finite()),
+                "finite weights"
+            );
+            let colors = expression.colors.iter().map(|bind| bind.material);
+            for material in colors.chain(expression.textures.iter().map(|bind| bind.material)) {
+                assert_in(
+                    Some(material),
+                    self.materials.len(),
+                    "material of an expression",
+                );
+            }
         }
     }
 

@@ -1,5 +1,9 @@
 //! Small valid files and scenes made in memory, for tests, fuzzing and benches.
 
+mod figures;
+
+pub use figures::{BODY_BONES, Vrm, avatar, gesture, humanoid, node_of};
+
 use crate::matrix;
 use crate::{
     Camera, Channel, Clip, Interpolation, Light, LightKind, Mesh, Morph, Node, Part, Projection,

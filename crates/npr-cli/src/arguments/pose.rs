@@ -1,18 +1,38 @@
 //! The arguments about how a scene stands.
 
 use clap::Args;
+use std::path::PathBuf;
 
 /// What the user said about the moment that is drawn.
 #[derive(Debug, Clone, Default, PartialEq, Args)]
 #[command(next_help_heading = "Pose")]
 pub struct PoseArguments {
-    /// A clip of the file, by its name or its number from 0, at its start or at --time [default: the first, where
-    /// --time is given; else the scene rests].
+    /// A clip of the file, or of the motion, by its name or its number from 0, at its start or at --time [default: the
+    /// first, where --time or --motion is given; else the scene rests].
     #[arg(long, value_name = "NAME|INDEX", allow_negative_numbers = true)]
     pub clip: Option<String>,
     /// The time in the clip, in seconds; before its start and after its end it stands still.
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = time)]
     pub time: Option<f32>,
+    /// A file whose clips the figure plays instead of its own: a VRM animation (.vrma), or a .glb or .vrm with bones.
+    #[arg(long, value_name = "FILE")]
+    pub motion: Option<PathBuf>,
+    /// A file of bones by their VRM names, each with its rotation, which counts where a clip turns the same bone
+    /// (.json).
+    #[arg(long, value_name = "FILE")]
+    pub pose: Option<PathBuf>,
+    /// An expression of a VRM by its name, and how much it shows, 0 to 1 [default share: 1]; repeatable.
+    #[arg(long = "expression", value_name = "NAME[=SHARE]", value_parser = expression)]
+    pub expressions: Vec<ExpressionShare>,
+}
+
+/// An expression, and how much of it shows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ExpressionShare {
+    /// Its name, as the user types it.
+    pub name: String,
+    /// 0 to 1.
+    pub share: f32,
 }
 
 /// Parses a time in seconds, any finite number.
@@ -20,6 +40,21 @@ fn time(text: &str) -> Result<f32, String> {
     match text.parse::<f32>() {
         Ok(seconds) if seconds.is_finite() => Ok(seconds),
         _ => Err("must be a number of seconds".to_owned()),
+    }
+}
+
+/// Parses the name of an expression with its share, or alone.
+fn expression(text: &str) -> Result<ExpressionShare, String> {
+    let (name, share) = match text.rsplit_once('=') {
+        Some((name, share)) => (name, share.parse::<f32>().ok()),
+        None => (text, Some(1.0)),
+    };
+    match share.filter(|share| (0.0..=1.0).contains(share)) {
+        Some(share) if !name.is_empty() => Ok(ExpressionShare {
+            name: name.to_owned(),
+            share,
+        }),
+        _ => Err("must be a name, or a name and a share from 0 to 1, such as happy=0.8".to_owned()),
     }
 }
 
@@ -32,6 +67,28 @@ mod tests {
         assert_eq!((time("0.25"), time("-3")), (Ok(0.25), Ok(-3.0)));
         for text in ["nan", "inf", "-inf", "1e99", "soon", ""] {
             assert!(time(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn an_expression_shows_whole_unless_it_has_a_share() {
+        let share = |name: &str, share| {
+            let name = name.to_owned();
+            Ok(ExpressionShare { name, share })
+        };
+        assert_eq!(expression("happy"), share("happy", 1.0));
+        assert_eq!(expression("Big grin=0.25"), share("Big grin", 0.25));
+        assert_eq!(expression("a=b=0"), share("a=b", 0.0));
+        for text in [
+            "",
+            "=1",
+            "happy=",
+            "happy=2",
+            "happy=-0.1",
+            "happy=nan",
+            "happy=much",
+        ] {
+            assert!(expression(text).is_err(), "{text}");
         }
     }
 }

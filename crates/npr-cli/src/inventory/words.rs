@@ -1,6 +1,8 @@
 //! Prints an inventory in words. Characters of names that could upset a terminal are escaped.
 
-use super::{Bounds, Clip, Drawn, Image, Inventory, Material, Named, Skin};
+use super::{
+    Bone, Bounds, Clip, Drawn, Expression, Image, Inventory, Material, Named, Overrides, Skin,
+};
 use crate::message::{name, plain};
 use std::fmt::Write;
 
@@ -29,6 +31,15 @@ impl Inventory {
             &mut text,
             "clip",
             clips.map(|(index, clip)| clip.text(index)),
+        );
+        list(&mut text, "bone", self.bones.iter().map(Bone::text));
+        let faces = self.expressions.iter().map(Expression::text);
+        list(&mut text, "expression", faces);
+        let moved = self.moved_expressions.iter();
+        list(
+            &mut text,
+            "expression",
+            moved.map(|moved| format!("'{}' moves with the clips", name(moved))),
         );
         list(
             &mut text,
@@ -153,6 +164,60 @@ impl Clip {
         let (name, seconds) = (name(&self.name), self.duration_s);
         let channels = self.channel_count;
         format!("{index} '{name}' {seconds:.2} s, {channels} channels")
+    }
+}
+
+/// A number of things in words; none where there are none.
+fn counted_as(count: usize, what: &str) -> Option<String> {
+    match count {
+        0 => None,
+        1 => Some(format!("1 {what}")),
+        _ => Some(format!("{count} {what}s")),
+    }
+}
+
+impl Bone {
+    fn text(&self) -> String {
+        format!("{} '{}'", self.name, name(&self.node))
+    }
+}
+
+impl Expression {
+    fn text(&self) -> String {
+        // Tell its name, and the file's where that is another.
+        let mut text = format!("'{}'", name(&self.name));
+        if self.file_name != self.name {
+            let _ = write!(text, " (in the file '{}')", name(&self.file_name));
+        }
+
+        // Tell what it binds.
+        let counts = [
+            counted_as(self.morphs.len(), "morph"),
+            counted_as(self.colors.len(), "colour"),
+            counted_as(self.textures.len(), "texture"),
+        ];
+        let counts: Vec<String> = counts.into_iter().flatten().collect();
+        match counts.is_empty() {
+            true => text.push_str(" binds nothing"),
+            false => {
+                let _ = write!(text, " binds {}", counts.join(", "));
+            }
+        }
+
+        // Tell how it behaves.
+        if self.binary {
+            text.push_str(", binary");
+        }
+        let Overrides {
+            blinks,
+            looks,
+            mouths,
+        } = self.overrides;
+        let kinds = [(blinks, "blinks"), (looks, "looks"), (mouths, "mouths")];
+        for (does, kind) in kinds.into_iter().filter(|(does, _)| *does != "none") {
+            let _ = write!(text, ", {does}s {kind}");
+        }
+        text
     }
 }
 

@@ -315,6 +315,74 @@ const DRAWINGS: &[Case] = &[
         &["--time", "0.5"],
         Told("--time is ignored: "),
     ),
+    (
+        &["render", "avatar.vrm", "-o", "a.png"],
+        &["--expression", "happy=0.8"],
+        Acts,
+    ),
+    (
+        &["render", "avatar.vrm", "-o", "a.png"],
+        &["--motion", "wave.vrma"],
+        Acts,
+    ),
+    (
+        &["render", "avatar.vrm", "-o", "a.png"],
+        &["--pose", "bow.json"],
+        Acts,
+    ),
+    (
+        &["lines", "avatar.vrm", "-o", "a.svg"],
+        &["--expression", "happy=0.8"],
+        Acts,
+    ),
+    (
+        &["lines", "avatar.vrm", "-o", "a.svg"],
+        &["--motion", "wave.vrma"],
+        Acts,
+    ),
+    (
+        &["lines", "avatar.vrm", "-o", "a.svg"],
+        &["--pose", "bow.json"],
+        Acts,
+    ),
+    (
+        &[
+            "render",
+            "avatar.vrm",
+            "-o",
+            "a.png",
+            "--motion",
+            "wave.vrma",
+        ],
+        &["--time", "0.7"],
+        Acts,
+    ),
+    (
+        &[
+            "render",
+            "avatar.vrm",
+            "-o",
+            "a.png",
+            "--motion",
+            "wave.vrma",
+        ],
+        &["--pose", "bow.json"],
+        Acts,
+    ),
+    (
+        &[
+            "render",
+            "avatar.vrm",
+            "-o",
+            "a.png",
+            "--motion",
+            "wave.vrma",
+            "--time",
+            "1",
+        ],
+        &["--expression", "happy=0"],
+        Acts,
+    ),
 ];
 
 /// A film of one frame of the box, as pictures and as line drawings.
@@ -380,7 +448,34 @@ const OF_LINES: &str = "is ignored: frames are pictures: --lines draws the lines
 
 const BEAT: &[&str] = &["animate", "wing.glb", "--frames", "3", "-o", "a.png"];
 
+/// A film of an avatar that turns, and one in which it moves.
+const STANDING: &[&str] = &[
+    "animate",
+    "avatar.vrm",
+    "--orbit",
+    "40",
+    "--frames",
+    "2",
+    "-o",
+    "a.png",
+];
+const WAVING: &[&str] = &[
+    "animate",
+    "avatar.vrm",
+    "--motion",
+    "wave.vrma",
+    "--frames",
+    "20",
+    "-o",
+    "a.png",
+];
+
 const ANIMATIONS: &[Case] = &[
+    (STANDING, &["--expression", "happy"], Acts),
+    (STANDING, &["--pose", "bow.json"], Acts),
+    (STANDING, &["--motion", "wave.vrma"], Acts),
+    (WAVING, &["--expression", "happy=0"], Acts),
+    (WAVING, &["--pose", "bow.json"], Acts),
     (BEAT, &["--fps", "6"], Acts),
     (BEAT, &["--clip", "1"], Acts),
     (BEAT, &["--turntable", "--length", "7"], Acts),
@@ -451,6 +546,8 @@ const SMOKES: &[Case] = &[
     (PUFF, &["--grid", "8x8x9"], Acts),
     (PUFF, &["--step", "2"], Told("--step is ignored: ")),
     (PUFF, &["--time", "1"], Told("--time is ignored: ")),
+    (PUFF, &["--pose", "x"], Told("--pose is ignored: ")),
+    (PUFF, &["--motion", "x"], Told("--motion is ignored: ")),
     (PUFF, &["--density", "x"], Told("--density is ignored: ")),
     (
         PUFF,
@@ -594,6 +691,20 @@ const BOX: &[u8] = b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1
     f 1//4 5//4 8//4 4//4\nf 2//5 1//5 4//5 3//5\n\
     v 1.05 0 0\nv 2 0 0\nv 2 1 0\nv 1.05 1 0\nf 9//5 10//5 11//5 12//5\n";
 
+/// Puts what moves into a folder: a wing, and an avatar with a motion and a pose.
+fn put_figures(place: &Workplace) {
+    place.put("wing.glb", &npr_scene::testing::wing());
+    place.put(
+        "avatar.vrm",
+        &npr_scene::testing::avatar(npr_scene::testing::Vrm::One),
+    );
+    place.put("wave.vrma", &npr_scene::testing::gesture());
+    place.put(
+        "bow.json",
+        br#"{"pose":{"spine":{"rotation":[0.5,0,0,0.8]}}}"#,
+    );
+}
+
 fn run_all(place: &Workplace, cases: &[Case], common: &[&str]) {
     let mut wrong = Vec::new();
     for (line, option, does) in cases {
@@ -639,7 +750,7 @@ fn without<'a>(line: &[&'a str], more: &[&str]) -> Vec<&'a str> {
 fn options_of_drawings_act_or_are_told() {
     let place = Workplace::new();
     place.put("scene.obj", BOX);
-    place.put("wing.glb", &npr_scene::testing::wing());
+    put_figures(&place);
     run_all(&place, DRAWINGS, &SMALL);
 }
 
@@ -647,7 +758,7 @@ fn options_of_drawings_act_or_are_told() {
 fn options_of_films_act_or_are_told() {
     let place = Workplace::new();
     place.put("scene.obj", BOX);
-    place.put("wing.glb", &npr_scene::testing::wing());
+    put_figures(&place);
     run_all(&place, ANIMATIONS, &SMALL);
 }
 

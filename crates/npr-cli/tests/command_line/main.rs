@@ -9,6 +9,7 @@ mod debug_layers;
 mod determinism;
 mod farm;
 mod ffmpeg;
+mod figures;
 mod files;
 mod id_maps;
 mod idle;

@@ -346,7 +346,7 @@ fn value_fault(item: Item, shape: &Shape, target: &Target<'_>) -> Option<String>
     let (width, per_time) = match target.property {
         Property::Translation | Property::Scale => (3, 1),
         Property::Rotation => (4, 1),
-        Property::Weights => (1, target.weight_count),
+        Property::Weights | Property::Share => (1, target.weight_count),
     };
     if shape.width != width {
         return Some(format!("{item} needs values of {width} numbers"));

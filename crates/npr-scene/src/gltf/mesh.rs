@@ -15,13 +15,14 @@ use super::error::{GltfError, Item};
 use super::primitive::{self, PrimitiveLocation};
 use super::tree::Tree;
 use crate::error::SceneError;
+use crate::figure::Figure;
 use crate::loading::Loading;
 use crate::mesh::Mesh;
 use crate::pool::Pool;
 use crate::scene::Scene;
 
 /// A mesh of the file, the bits of the weights that a node sets for it, if it does, and the node whose weights a clip
-/// moves, if one does.
+/// or an expression moves, if one does.
 type Key = (usize, Option<Vec<u32>>, Option<usize>);
 
 /// Reads the meshes that kept nodes use.
@@ -35,8 +36,10 @@ pub(crate) fn read(
     scene: &mut Scene,
     loading: &mut Loading,
 ) -> Result<(), SceneError> {
-    // Read each mesh once for every set of morph weights that nodes give it, and for every node that clips give others.
-    let weighted = clip::weighted_nodes(&scene.clips);
+    // Read each mesh once for every set of morph weights that nodes give it, and for every node that clips or
+    // expressions give others.
+    let mut weighted = clip::weighted_nodes(&scene.clips);
+    weighted.extend(scene.figure.iter().flat_map(Figure::morphed_nodes));
     let is_weighted = |index: usize| {
         tree.place(index)
             .is_some_and(|node| weighted.contains(&node))

@@ -76,6 +76,7 @@ fn poses() -> impl Strategy<Value = Pose> {
     (transforms, weights).prop_map(|(transforms, weights)| Pose {
         transforms,
         weights,
+        ..Pose::default()
     })
 }
 
@@ -206,6 +207,7 @@ fn what_is_carried_out_of_range_is_refused_and_nothing_changes() {
         let pose = Pose {
             transforms: BTreeMap::from([(0, far)]),
             weights: BTreeMap::from([(1, vec![1.0])]),
+            ..Pose::default()
         };
         assert!(scene.set_pose(&pose).is_err(), "{scale}");
         assert_eq!(scene, before);
@@ -234,6 +236,7 @@ fn what_the_scene_lacks_is_left_alone() {
     let pose = Pose {
         transforms: BTreeMap::from([(0, moved), (7, moved)]),
         weights: BTreeMap::from([(9, vec![1.0])]),
+        shares: BTreeMap::from([(0, 1.0)]),
     };
     scene.set_pose(&pose).expect("nothing to do");
     assert_eq!(scene, before);

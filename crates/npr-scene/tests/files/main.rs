@@ -1,6 +1,7 @@
 //! Files of every format: sound, odd, damaged, and those beside the checkout.
 
 mod clips;
+mod figures;
 mod gltf;
 mod lines;
 mod malformed;

@@ -1,7 +1,9 @@
 //! Damaged files never panic, and what still loads is sound.
 
-use npr_scene::testing::{Sheet, lines_glb, skinned_glb, skinned_lines_glb, sparse_glb, wing};
-use npr_scene::{Format, Limits, MemoryResources, Pose, load_bytes};
+use npr_scene::testing::{
+    Sheet, Vrm, avatar, gesture, lines_glb, skinned_glb, skinned_lines_glb, sparse_glb, wing,
+};
+use npr_scene::{Bone, Format, Limits, MemoryResources, Pose, Posture, Scene, load_bytes};
 use proptest::prelude::*;
 
 /// What happens to a few bytes of a file.
@@ -65,7 +67,7 @@ fn survives(mut file: Vec<u8>, format: Format, damages: &[Damage]) {
 
         // Whatever its clips do, it stands soundly, and rests as it did.
         let rest = scene.clone();
-        for clip in &rest.clips {
+        for clip in rest.clips.iter().chain(&played_by_itself(&rest, &limits)) {
             for time in [f32::NAN, 0.0, 0.7, clip.duration_s(), f32::INFINITY] {
                 let pose = scene.pose_at(clip, time);
                 let before = scene.nodes.clone();
@@ -75,9 +77,44 @@ fn survives(mut file: Vec<u8>, format: Format, damages: &[Damage]) {
                 }
             }
         }
+        if scene.set_pose(&acted(&rest)).is_ok() {
+            scene.sanity_check();
+        }
         scene.set_pose(&Pose::default()).expect("the rest pose");
         assert!(scene.nodes == rest.nodes && scene.bounds_world() == rest.bounds_world());
     }
+}
+
+/// The clips of a scene as it plays them as a motion.
+fn played_by_itself(scene: &Scene, limits: &Limits) -> Vec<npr_scene::Clip> {
+    let mut played = scene.clone();
+    let motions = scene.clips_of(scene, limits);
+    played.clips = motions.map_or_else(|_| Vec::new(), |motions| motions.clips);
+    played.sanity_check();
+    played.clips
+}
+
+/// A scene with all its bones bent, and half of every expression.
+fn acted(scene: &Scene) -> Pose {
+    let figure = scene.figure.iter().flat_map(|figure| &figure.expressions);
+    let mut pose = Pose {
+        shares: (0u32..)
+            .zip(figure)
+            .map(|(number, _)| (number, 0.5))
+            .collect(),
+        ..Pose::default()
+    };
+    let posture = Posture {
+        turns: Bone::all()
+            .map(|bone| (bone, [0.1, 0.2, 0.3, 0.9]))
+            .collect(),
+        hips: Some([1.0, 2.0, 3.0]),
+    };
+    scene.bend(&mut pose, &posture);
+    let mut painted = scene.clone();
+    painted.paint_expressions(&pose.shares);
+    painted.sanity_check();
+    pose
 }
 
 proptest! {
@@ -94,6 +131,9 @@ proptest! {
         survives(sparse_glb(), Format::Glb, &damages);
         survives(skinned_lines_glb(), Format::Glb, &damages);
         survives(drawing(), Format::Glb, &damages);
+        survives(avatar(Vrm::Zero), Format::Glb, &damages);
+        survives(avatar(Vrm::One), Format::Glb, &damages);
+        survives(gesture(), Format::Glb, &damages);
     }
 
     #[test]

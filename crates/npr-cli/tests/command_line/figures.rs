@@ -1,0 +1,322 @@
+//! Figures: expressions, poses and motions by their names and files, and what is said of them.
+
+use crate::workplace::{Outcome, Workplace};
+use npr_scene::testing::{Vrm, avatar, gesture, wing};
+
+const BOW: &[u8] = br#"{"pose":{"spine":{"rotation":[0.5,0,0,0.8]}}}"#;
+
+/// A workplace with avatars of both versions, a motion, and a pose.
+fn place() -> Workplace {
+    let place = Workplace::with_scene();
+    place.put("zero.vrm", &avatar(Vrm::Zero));
+    place.put("one.vrm", &avatar(Vrm::One));
+    place.put("wave.vrma", &gesture());
+    place.put("bow.json", BOW);
+    place
+}
+
+/// The drawing of a scene with options, and what was said of it beside what of a VRM is ignored anyway.
+fn drawn(place: &Workplace, command: &str, scene: &str, more: &[&str]) -> (Vec<u8>, String) {
+    let file = if command == "lines" { "a.svg" } else { "a.png" };
+    let line = [
+        command,
+        scene,
+        "-o",
+        file,
+        "--size",
+        "64x96",
+        "--backend",
+        "cpu",
+    ];
+    let outcome: Outcome = place.npr(&[&line, more].concat());
+    assert_eq!(outcome.code, Some(0), "{more:?}: {}", outcome.stderr);
+    let lines = outcome.stderr.lines();
+    let said: Vec<&str> = lines
+        .filter(|line| !line.contains("look-at, springs"))
+        .collect();
+    (place.get(file), said.join("\n"))
+}
+
+#[test]
+fn both_versions_are_drawn_alike() {
+    let place = place();
+    let cases: [&[&str]; 6] = [
+        &[],
+        &["--expression", "happy=0.6"],
+        &["--expression", "blink"],
+        &["--pose", "bow.json"],
+        &["--motion", "wave.vrma", "--time", "0.3"],
+        &[
+            "--motion",
+            "wave.vrma",
+            "--time",
+            "1.6",
+            "--pose",
+            "bow.json",
+            "--expression",
+            "Wink=0.5",
+        ],
+    ];
+    let mut seen = Vec::new();
+    for more in cases {
+        let (picture, said) = drawn(&place, "render", "one.vrm", more);
+        assert_eq!(
+            drawn(&place, "render", "zero.vrm", more),
+            (picture.clone(), said),
+            "{more:?}"
+        );
+        assert!(!seen.contains(&picture), "{more:?}");
+        seen.push(picture);
+    }
+}
+
+#[test]
+fn expressions_are_named_in_any_letter_case_and_the_last_share_counts() {
+    let place = place();
+    for command in ["render", "lines"] {
+        let picture = |scene, more: &[&str]| {
+            let (picture, said) = drawn(&place, command, scene, more);
+            assert_eq!(said, "", "{more:?}");
+            picture
+        };
+        let happy = picture("one.vrm", &["--expression", "happy"]);
+        for name in ["HAPPY=1", "joy", "Happy=1.0"] {
+            assert_eq!(picture("one.vrm", &["--expression", name]), happy, "{name}");
+        }
+        let twice = [
+            "--expression",
+            "aa",
+            "--expression",
+            "happy=0",
+            "--expression",
+            "Happy",
+            "--expression",
+            "aa=0",
+        ];
+        assert_eq!(picture("one.vrm", &twice), happy);
+        let rest = picture("one.vrm", &[]);
+        assert_ne!(rest, happy);
+        assert_eq!(picture("one.vrm", &["--expression", "blink=0.5"]), rest);
+        assert_ne!(picture("one.vrm", &["--expression", "blink=0.51"]), rest);
+    }
+}
+
+#[test]
+fn what_there_is_none_of_is_refused() {
+    let place = place();
+    place.put("wing.glb", &wing());
+    place.put("broken.json", b"{\"pose\":{]");
+    place.put("other.json", b"{\"pose\":[1]}");
+    place.put("other.vrma", b"no motion");
+    let names = place.names();
+    let refused =
+        |code, arguments: &[&str], text: &str| place.npr(arguments).assert_fault(code, text);
+    for command in ["render", "lines", "animate"] {
+        let of = |scene, option, value| [command, scene, option, value];
+        let told = "the scene has no expression 'hppy'; it has 'happy', 'aa', 'Wink', 'blink'";
+        refused(2, &of("one.vrm", "--expression", "hppy"), told);
+        refused(
+            2,
+            &of("scene.obj", "--expression", "happy"),
+            "no expression 'happy'; it has none",
+        );
+        refused(
+            2,
+            &of("one.vrm", "--expression", "happy=2"),
+            "a share from 0 to 1",
+        );
+        refused(
+            2,
+            &of("scene.obj", "--motion", "wave.vrma"),
+            "the scene has no bones",
+        );
+        refused(
+            3,
+            &of("one.vrm", "--motion", "wing.glb"),
+            "cannot play 'wing.glb': the motion has no bones",
+        );
+        refused(
+            3,
+            &of("one.vrm", "--motion", "one.vrm"),
+            "cannot play 'one.vrm': the motion has no clips",
+        );
+        refused(
+            3,
+            &of("one.vrm", "--motion", "other.vrma"),
+            "cannot read 'other.vrma'",
+        );
+        refused(
+            1,
+            &of("one.vrm", "--motion", "none.vrma"),
+            "cannot read 'none.vrma'",
+        );
+        if command == "animate" {
+            continue;
+        }
+        refused(
+            2,
+            &of("scene.obj", "--pose", "bow.json"),
+            "the scene has no bones",
+        );
+        refused(
+            3,
+            &of("one.vrm", "--pose", "broken.json"),
+            "'broken.json': line 1, column 10: this is not JSON",
+        );
+        refused(
+            3,
+            &of("one.vrm", "--pose", "other.json"),
+            "cannot read 'other.json': it holds no bones",
+        );
+        refused(
+            1,
+            &of("one.vrm", "--pose", "none.json"),
+            "cannot read 'none.json'",
+        );
+        let unknown = [
+            command,
+            "one.vrm",
+            "--motion",
+            "wave.vrma",
+            "--clip",
+            "Walk",
+        ];
+        refused(2, &unknown, "the scene has no clip 'Walk'; it has 'Wave'");
+    }
+    refused(
+        2,
+        &["smoke", "puff", "--expression", "happy"],
+        "it has none",
+    );
+    assert_eq!(place.names(), names);
+}
+
+#[test]
+fn what_a_run_reads_is_not_written_over() {
+    let place = place();
+    let line = ["lines", "one.vrm", "--pose", "bow.json", "-o", "bow.json"];
+    place.npr(&line).assert_fault(2, "bow.json");
+    assert_eq!(place.get("bow.json"), BOW);
+    place.put("wave.svg", &gesture());
+    let line = ["lines", "one.vrm", "--motion", "wave.svg", "-o", "wave.svg"];
+    place.npr(&line).assert_fault(2, "wave.svg");
+    assert!(place.get("wave.svg") == gesture());
+}
+
+#[test]
+fn an_expression_changes_colours_too() {
+    let place = place();
+    let red = |scene, more: &[&str]| {
+        let (picture, _) = drawn(&place, "render", scene, more);
+        let picture = image::load_from_memory(&picture)
+            .expect("a picture")
+            .to_rgb8();
+        let is_red = |pixel: &&image::Rgb<u8>| pixel[0] > 100 && pixel[1] < 20 && pixel[2] < 20;
+        picture.pixels().filter(is_red).count()
+    };
+    for scene in ["zero.vrm", "one.vrm"] {
+        assert_eq!(red(scene, &[]), 0);
+        assert_eq!(red(scene, &["--expression", "aa"]), 0);
+        assert!(red(scene, &["--expression", "happy"]) > 20);
+    }
+}
+
+#[test]
+fn what_of_a_pose_is_not_used_is_told() {
+    let place = place();
+    let (rest, _) = drawn(&place, "render", "one.vrm", &[]);
+    place.put(
+        "odd.json",
+        br#"{"pose":{"leftUprArm":{},"head":{"rotation":[0,0,0]},"spine":{"position":[1,0,0]}}}"#,
+    );
+    let (picture, said) = drawn(&place, "render", "one.vrm", &["--pose", "odd.json"]);
+    assert_eq!(picture, rest);
+    let mut said: Vec<&str> = said.lines().collect();
+    said.sort_unstable();
+    let of = "npr: warning: pose 'odd.json': ";
+    let wanted = [
+        "the position of 'spine' is ignored: the hips alone are moved",
+        "the rotation of 'head' is ignored: it is no list of four numbers that turn something",
+        "there is no bone 'leftUprArm': did you mean 'leftUpperArm'?",
+    ];
+    assert_eq!(said, wanted.map(|text| format!("{of}{text}")));
+
+    // A hundred faults are not a hundred lines.
+    let many: Vec<String> = (0..100).map(|i| format!("\"bone {i}\":{{}}")).collect();
+    place.put(
+        "odd.json",
+        format!("{{\"pose\":{{{}}}}}", many.join(",")).as_bytes(),
+    );
+    let (_, said) = drawn(&place, "render", "one.vrm", &["--pose", "odd.json"]);
+    assert!(
+        said.lines().count() == 6 && said.ends_with("95 more are ignored"),
+        "{said}"
+    );
+}
+
+#[test]
+fn what_of_a_motion_is_not_used_is_told_once() {
+    let place = place();
+    let (_, said) = drawn(&place, "render", "one.vrm", &["--motion", "wave.vrma"]);
+    let of = "npr: warning: motion 'wave.vrma': ";
+    let wanted = [
+        "where the figure of the motion looks is not used",
+        "expressions of motions change no colours",
+    ];
+    assert_eq!(said, wanted.map(|text| format!("{of}{text}")).join("\n"));
+
+    // A motion plays on any scene whose nodes are named as bones, one of VRM 1.0 on one of VRM 0.x too.
+    let line = [
+        "animate",
+        "zero.vrm",
+        "--motion",
+        "wave.vrma",
+        "--frames",
+        "0..2",
+        "--fps",
+        "1",
+        "-o",
+        "f#.png",
+    ];
+    let outcome = place.npr(&[&line[..], &["--size", "48x64", "--backend", "cpu", "-q"]].concat());
+    outcome.assert_silent_success();
+    let [first, second, third] = [0, 1, 2].map(|i| place.get(&format!("f{i}.png")));
+    assert!(first != second && second != third);
+}
+
+#[test]
+fn bones_and_expressions_are_listed() {
+    let place = place();
+    let outcome = place.npr(&["info", "one.vrm", "--json"]);
+    outcome.assert_silent_success();
+    let info: serde_json::Value = serde_json::from_str(outcome.text()).expect("JSON");
+    assert_eq!(info["bones"].as_array().map(Vec::len), Some(15));
+    assert_eq!(
+        info["bones"][0],
+        serde_json::json!({"name": "hips", "node": "hips"})
+    );
+    let happy = serde_json::json!({
+        "name": "happy", "file_name": "happy", "binary": false,
+        "morphs": [{"node": "head", "morph": 0, "weight": 0.5}], "colors": ["Face"], "textures": [],
+        "overrides": {"blinks": "block", "looks": "none", "mouths": "blend"},
+    });
+    assert_eq!(info["expressions"][2], happy);
+    let listed = |file, line: &str| {
+        let text = place.npr(&["info", file]);
+        assert!(
+            text.text().contains(&format!("\n  {line}\n")),
+            "{}",
+            text.text()
+        );
+    };
+    listed("one.vrm", "bone leftUpperArm 'leftUpperArm'");
+    listed(
+        "one.vrm",
+        "expression 'happy' binds 1 morph, 1 colour, blocks blinks, blends mouths",
+    );
+    listed(
+        "zero.vrm",
+        "expression 'blink' (in the file 'Blink') binds 1 morph, binary",
+    );
+    listed("wave.vrma", "expression 'blink' moves with the clips");
+}
