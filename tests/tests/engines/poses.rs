@@ -100,6 +100,8 @@ fn a_limb_goes_from_pose_to_pose_in_any_style() {
             ("toon", &[][..]),
             ("toon", &["light.file=true", "light.shadow=true"]),
             ("ink", &["line.method=strokes"]),
+            // Lines that passes find by the folds that are handed to them.
+            ("toon", &["line.method=shape", "line.crease_from=faces"]),
             ("hull", &[]),
             ("crosshatch", &["shade.use_vertex_colors=true"]),
         ] {

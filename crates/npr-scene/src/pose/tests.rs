@@ -225,6 +225,40 @@ fn what_is_carried_out_of_range_is_refused_and_nothing_changes() {
 }
 
 #[test]
+fn a_mesh_that_is_carried_out_of_range_is_refused_and_nothing_changes() {
+    // Make a scene whose nodes stay where they may stand, while its mesh is too large for them.
+    let mut scene = chain(&[Transform::default(); 2]);
+    let part = &mut scene.meshes[0].parts[0];
+    part.morphs.clear();
+    part.unmorphed = None;
+    part.positions
+        .as_flattened_mut()
+        .iter_mut()
+        .for_each(|v| *v *= 1e12);
+    scene.nodes[1].name = "mast".to_owned();
+    let before = scene.clone();
+
+    // Scale it a little, and too much.
+    let scaled = |scale| Pose {
+        transforms: BTreeMap::from([(
+            1,
+            Transform {
+                scale: [scale; 3],
+                ..Transform::default()
+            },
+        )]),
+        ..Pose::default()
+    };
+    let fault = scene.set_pose(&scaled(1e7)).expect_err("out of range");
+    assert_eq!(
+        fault.to_string(),
+        "the pose carries node 'mast' out of range"
+    );
+    assert_eq!(scene, before);
+    scene.set_pose(&scaled(1e3)).expect("in range");
+}
+
+#[test]
 fn what_the_scene_lacks_is_left_alone() {
     let mut scene = chain(&[Transform::default()]);
     scene.nodes[0].rest = None;
