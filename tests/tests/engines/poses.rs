@@ -161,6 +161,58 @@ fn a_posed_model_is_the_one_that_is_made_of_the_posed_scene() {
 }
 
 #[test]
+fn widths_follow_the_curvature_of_the_posed_surface() {
+    // Draw wide lines that follow bends, and nothing else.
+    let keys = [
+        "line.width.source=curvature",
+        "line.width.base=9",
+        "line.width.min=0.1",
+        "line.width.max=2.0",
+        "line.width.gain=0.02",
+        "line.width.room=0",
+    ];
+    let style = style("technical", &keys);
+
+    // Put markers far out of sight, so that lengths in radii are the same in any pose.
+    let mut rest = limb(true);
+    let camera = Subject::new(&rest, &style).unwrap();
+    let camera = camera.model.framing(4.0 / 3.0, 0.9);
+    for part in rest.meshes.iter_mut().flat_map(|mesh| &mut mesh.parts) {
+        if part.joints.is_none() {
+            let first = part.positions.len() as u32;
+            for side in [-40.0, 40.0] {
+                part.positions
+                    .extend([[0.0, side, 0.0], [1.0, side, 0.0], [0.0, side, 1.0]]);
+            }
+            part.triangles
+                .extend([0, 3].map(|at| [0, 1, 2].map(|corner| first + at + corner)));
+        }
+    }
+    let scene = posed(&rest, Some((1, 1.0)));
+
+    // A limb that comes to bulge has the lines of one that is made so, to the rounding of its normals.
+    let options = RendererOptions::new(SIZE);
+    let fresh = Subject::new(&scene, &style).unwrap();
+    let subject = Subject::new(&rest, &style).unwrap();
+    for engine in [
+        Some(&Processor as &dyn Engine),
+        device().map(|device| device as _),
+    ] {
+        let Some(engine) = engine else { continue };
+        let mut film = subject.renderer(engine, &style, &options).unwrap();
+        film.set_pose(&posed(&rest, Some((1, 0.0)))).unwrap();
+        let straight = film.draw(&camera).unwrap();
+        film.set_pose(&scene).unwrap();
+        let bulging = film.draw(&camera).unwrap();
+        let mut made = fresh.renderer(engine, &style, &options).unwrap();
+        let made = made.draw(&camera).unwrap();
+        let agreement = Agreement::between(&bulging, &made, 2);
+        assert!(agreement.within >= 1.0, "{agreement}");
+        assert!(Agreement::between(&straight, &made, 2).within < 0.98);
+    }
+}
+
+#[test]
 fn a_film_copies_the_model_and_leaves_that_of_the_caller_alone() {
     let (rest, style) = (limb(true), style("toon", &[]));
     let subject = Subject::new(&rest, &style).unwrap();
