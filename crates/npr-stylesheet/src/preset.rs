@@ -45,7 +45,7 @@ macro_rules! presets {
 const PRESETS: &[Preset] = presets![
     "toon" 5 "../presets/toon.toml",
     "ink" 5 "../presets/ink.toml",
-    "g-pen" 5 "../presets/g-pen.toml",
+    "g-pen" 6 "../presets/g-pen.toml",
     "technical" 5 "../presets/technical.toml",
     "comic-silver" 4 "../presets/comic-silver.toml",
     "comic-modern" 6 "../presets/comic-modern.toml",
@@ -57,11 +57,11 @@ const PRESETS: &[Preset] = presets![
     "screentone" 4 "../presets/screentone.toml",
     "inked" 4 "../presets/inked.toml",
     "manga" 4 "../presets/manga.toml",
-    "brush" 4 "../presets/brush.toml",
-    "ink-wash" 4 "../presets/ink-wash.toml",
-    "sketch" 3 "../presets/sketch.toml",
+    "brush" 5 "../presets/brush.toml",
+    "ink-wash" 5 "../presets/ink-wash.toml",
+    "sketch" 4 "../presets/sketch.toml",
     "pencil-outline" 4 "../presets/pencil-outline.toml",
-    "charcoal" 3 "../presets/charcoal.toml",
+    "charcoal" 4 "../presets/charcoal.toml",
     "chalkboard" 4 "../presets/chalkboard.toml",
     "blueprint" 3 "../presets/blueprint.toml",
     "cel-2" 4 "../presets/cel-2.toml",
@@ -94,6 +94,7 @@ const OLDER: &[Preset] = presets![
     "brush" 1 "../presets/older/brush-1.toml",
     "brush" 2 "../presets/older/brush-2.toml",
     "brush" 3 "../presets/older/brush-3.toml",
+    "brush" 4 "../presets/older/brush-4.toml",
     "cel-2" 1 "../presets/older/cel-2-1.toml",
     "cel-2" 2 "../presets/older/cel-2-2.toml",
     "cel-2" 3 "../presets/older/cel-2-3.toml",
@@ -105,6 +106,7 @@ const OLDER: &[Preset] = presets![
     "chalkboard" 3 "../presets/older/chalkboard-3.toml",
     "charcoal" 1 "../presets/older/charcoal-1.toml",
     "charcoal" 2 "../presets/older/charcoal-2.toml",
+    "charcoal" 3 "../presets/older/charcoal-3.toml",
     "cloud" 1 "../presets/older/cloud-1.toml",
     "cloud" 2 "../presets/older/cloud-2.toml",
     "cloud" 3 "../presets/older/cloud-3.toml",
@@ -133,6 +135,7 @@ const OLDER: &[Preset] = presets![
     "g-pen" 2 "../presets/older/g-pen-2.toml",
     "g-pen" 3 "../presets/older/g-pen-3.toml",
     "g-pen" 4 "../presets/older/g-pen-4.toml",
+    "g-pen" 5 "../presets/older/g-pen-5.toml",
     "ink" 1 "../presets/older/ink-1.toml",
     "ink" 2 "../presets/older/ink-2.toml",
     "ink" 3 "../presets/older/ink-3.toml",
@@ -140,6 +143,7 @@ const OLDER: &[Preset] = presets![
     "ink-wash" 1 "../presets/older/ink-wash-1.toml",
     "ink-wash" 2 "../presets/older/ink-wash-2.toml",
     "ink-wash" 3 "../presets/older/ink-wash-3.toml",
+    "ink-wash" 4 "../presets/older/ink-wash-4.toml",
     "inked" 1 "../presets/older/inked-1.toml",
     "inked" 2 "../presets/older/inked-2.toml",
     "inked" 3 "../presets/older/inked-3.toml",
@@ -170,6 +174,7 @@ const OLDER: &[Preset] = presets![
     "simple-comic" 4 "../presets/older/simple-comic-4.toml",
     "sketch" 1 "../presets/older/sketch-1.toml",
     "sketch" 2 "../presets/older/sketch-2.toml",
+    "sketch" 3 "../presets/older/sketch-3.toml",
     "smoke-cel-2" 1 "../presets/older/smoke-cel-2-1.toml",
     "smoke-cel-2" 2 "../presets/older/smoke-cel-2-2.toml",
     "smoke-cel-2" 3 "../presets/older/smoke-cel-2-3.toml",
@@ -243,6 +248,7 @@ pub fn find(name: &str) -> Result<&'static Preset, StyleError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::PartNames;
     use crate::{OutlineMethod, Style, WidthSource};
 
     #[test]
@@ -380,9 +386,20 @@ mod tests {
         }
     }
 
+    /// The first version of presets with calm tones and rounded edges, where a newer one came after it. It has no ink on
+    /// faces: that is what the newer one brought.
+    const FIRST_CALM: [(&str, u32); 5] = [
+        ("brush", 4),
+        ("charcoal", 3),
+        ("g-pen", 5),
+        ("ink-wash", 4),
+        ("sketch", 3),
+    ];
+
     #[test]
     fn versions_from_before_calm_tones_and_rounded_edges_have_neither() {
-        for older in OLDER {
+        let is_calm = |older: &&Preset| FIRST_CALM.contains(&(older.name, older.version));
+        for older in OLDER.iter().filter(|older| !is_calm(older)) {
             let style =
                 Style::preset(&format!("{}@{}", older.name, older.version)).expect("a preset");
             let both = [style.shade.calm, style.line.crease_round];
@@ -395,6 +412,23 @@ mod tests {
         }
         let toon = Style::preset("toon").expect("a preset");
         assert!(toon.shade.calm > 0.0 && toon.line.crease_round > 0.0);
+    }
+
+    #[test]
+    fn dark_paint_of_faces_is_ink_from_a_version_on() {
+        let inks_faces = |name: &str| {
+            let style = Style::preset(name).expect("a preset");
+            let names = PartNames {
+                material: "F00_Face",
+                object: "figure",
+                ids: &[],
+            };
+            style.resolve(names).ink.paint > 0.0
+        };
+        for (name, version) in FIRST_CALM {
+            assert!(inks_faces(name), "{name}");
+            assert!(!inks_faces(&format!("{name}@{version}")), "{name}");
+        }
     }
 
     #[test]
