@@ -386,8 +386,8 @@ mod tests {
         }
     }
 
-    /// The first version of presets with calm tones and rounded edges, where a newer one came after it. It has no ink on
-    /// faces: that is what the newer one brought.
+    /// The first version of presets with calm tones and rounded edges, where a newer one came after it. It has no ink
+    /// on faces: that is what the newer one brought.
     const FIRST_CALM: [(&str, u32); 5] = [
         ("brush", 4),
         ("charcoal", 3),

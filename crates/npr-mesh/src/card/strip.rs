@@ -3,8 +3,8 @@
 //! The border of a strip is one loop: a side there, the tip, a side back, the root. Folded together at root and tip,
 //! its sides come to lie on each other, as near as the strip is wide; folded anywhere else they lie far apart. So the
 //! ends are where the folded sides are nearest, and the line runs half way between places at equal shares of both
-//! sides' lengths. A blunt end, at which the border turns twice, lies half way between its two corners. What lies between
-//! the sides does not count: a strip may have several columns, and bend across.
+//! sides' lengths. A blunt end, at which the border turns twice, lies half way between its two corners. What lies
+//! between the sides does not count: a strip may have several columns, and bend across.
 
 use super::piece::{Piece, area_within, finished, length_of};
 use crate::card_lines::CardPoint;
