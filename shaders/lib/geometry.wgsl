@@ -15,7 +15,7 @@ struct Vertex {
     weld_normal: u32,
     width: f32,
     part: u32,
-    chart_distortion: f32,
+    pen: u32,
 }
 
 struct Influence {
@@ -130,6 +130,7 @@ const PART_ANGLE: u32 = 524288u;
 const PART_PAINTED: u32 = 1048576u;
 const PART_PLAIN: u32 = 2097152u;
 const PART_TONE_ROW: u32 = 4194304u;
+const PART_SPARED: u32 = 8388608u;
 const PART_FOLDS: u32 = 1073741824u;
 
 const LINE_KINDS: u32 = KINDS_COLORED;

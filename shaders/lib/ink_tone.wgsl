@@ -32,9 +32,10 @@ fn ink_over(part: u32, range: vec2<f32>) -> f32 {
     // Paint is looked up at each place, but it only darkens.
     let painted = (parts[part].flags & PART_PAINTED) != 0u;
     if !painted && tone_value(lightest, level_of(part, range.x)) > parts[part].threshold { return 0.0; }
-    // The grain of the paper leaves white in a hatch however dark it is.
+    // The grain of the paper leaves white in a hatch however dark it is, and so does a face.
     let grained = hatched && parts[part].hatch_grain > 0.0;
-    if !grained && tone_value(darkest, level_of(part, range.y)) < parts[part].threshold { return 1.0; }
+    let spared = (parts[part].flags & PART_SPARED) != 0u;
+    if !grained && !spared && tone_value(darkest, level_of(part, range.y)) < parts[part].threshold { return 1.0; }
     return -1.0;
 }
 

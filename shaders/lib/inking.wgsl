@@ -52,6 +52,26 @@ fn step_of(place: HatchCoord, isotropic: bool) -> f32 {
     return length(vec2<f32>(place.right.x, place.down.x));
 }
 
+// Two shares that triangle `id` has for the pen at these weights of its corners, 0..1: the distortion of its stroke
+// chart, and how much of its shade is left out.
+fn pen_at(id: u32, weights: vec3<f32>) -> vec2<f32> {
+    let at = triangles[(id & ID_MASK) - 1u].corners;
+    let a = unpack_shares(vertices[at.x].pen);
+    let b = unpack_shares(vertices[at.y].pen);
+    let c = unpack_shares(vertices[at.z].pen);
+    return vec2<f32>(blend(weights, a.x, b.x, c.x), blend(weights, a.y, b.y, c.y));
+}
+
+// The shares that npr_core::math::pack_shares packed.
+fn unpack_shares(packed: u32) -> vec2<f32> {
+    return vec2<f32>(f32(packed & 0xffffu), f32(packed >> 16u)) / 65535.0;
+}
+
+// Luminance of a place of which the pen leaves out a share of the shade.
+fn spared_level(l: f32, spared: f32) -> f32 {
+    return l + spared;
+}
+
 // How much of the surface of triangle `id` is inked at a place of the frame, 0..1; bits of `dark` are the lights whose
 // shadow falls there.
 fn ink_at(id: u32, part: u32, corners: Corners, px: vec2<f32>, dark: u32) -> f32 {
@@ -66,6 +86,9 @@ fn ink_at(id: u32, part: u32, corners: Corners, px: vec2<f32>, dark: u32) -> f32
         let lit = coordinate_under(world_of(corners, weights[i]), normal_of(corners, weights[i]), dark, seen);
         l[i] = level_of(part, lit.x);
     }
+    if (flags & PART_SPARED) != 0u {
+        for (var i = 0u; i < 3u; i++) { l[i] = spared_level(l[i], pen_at(id, weights[i]).y); }
+    }
     // Where the light changes faster than strokes follow one another, they do not show it.
     let white = paint_at(id, part, weights);
     let per_px = length(vec2<f32>(l[1] - l[0], l[2] - l[0])) * white[0];
@@ -77,7 +100,7 @@ fn ink_at(id: u32, part: u32, corners: Corners, px: vec2<f32>, dark: u32) -> f32
     }
     let ink = ink_of_level(part, l[0]);
     if ink >= 0.0 { return on_paper(part, ink, px); }
-    let chart_distortion = chart_distortion_at(id, weights[0]);
+    let chart_distortion = pen_at(id, weights[0]).x;
     var calm: Calm;
     calm.chart_distortion = chart_distortion * white[0];
     calm.abrupt = abruptness(per_px, parts[part].spacing_px);
@@ -177,12 +200,6 @@ fn toned_hatch(full: Hatching, abrupt: f32) -> Hatching {
     hatching.slope *= 1.0 - abrupt;
     hatching.hairline *= 1.0 - abrupt;
     return hatching;
-}
-
-// Distortion of the stroke chart on triangle `id` at these weights of its corners, 0..1.
-fn chart_distortion_at(id: u32, weights: vec3<f32>) -> f32 {
-    let at = triangles[(id & ID_MASK) - 1u].corners;
-    return blend(weights, vertices[at.x].chart_distortion, vertices[at.y].chart_distortion, vertices[at.z].chart_distortion);
 }
 
 // A hatch whose white is filled where the chart is distorted: the last strokes merge up to a fifth earlier than they

@@ -37,8 +37,9 @@ pub struct Vertex {
     pub width: f32,
     /// Index into the parts.
     pub part: u32,
-    /// How badly hatch strokes lie around it, 0..1: there the dark is solid ink.
-    pub chart_distortion: f32,
+    /// How badly hatch strokes lie around it, where the dark is solid ink, and how much of its shade the pen leaves
+    /// out, as on faces: two shares packed by [`crate::math::pack_shares`].
+    pub pen: u32,
 }
 gpu_layout!(Vertex {
     position,
@@ -50,7 +51,7 @@ gpu_layout!(Vertex {
     weld_normal,
     width,
     part,
-    chart_distortion
+    pen
 });
 
 impl Vertex {
@@ -370,6 +371,8 @@ impl Part {
     pub const PLAIN: u32 = 2_097_152;
     /// Its tones are a row of the texture store, not its ramp.
     pub const TONE_ROW: u32 = 4_194_304;
+    /// The pen leaves out some of the shade of its vertices.
+    pub const SPARED: u32 = 8_388_608;
     /// Its lines are found where its faces fold, whatever its normals say.
     pub const FOLDS: u32 = 1 << 30;
     /// Any outline.

@@ -74,6 +74,18 @@ pub fn unpack_unit(packed: u32) -> [f32; 3] {
     [x / length, y / length, z / length]
 }
 
+/// Two shares, 0..1, in one word, the first in the low half; the error is under 8e-6. What is no share counts as the
+/// nearest, and NaN as 0.
+pub fn pack_shares(shares: [f32; 2]) -> u32 {
+    let [low, high] = shares.map(|share| (share.clamp(0.0, 1.0) * 65535.0 + 0.5) as u32);
+    low | high << 16
+}
+
+/// The shares that [`pack_shares`] packed.
+pub fn unpack_shares(packed: u32) -> [f32; 2] {
+    [packed & 0xffff, packed >> 16].map(|bits| bits as f32 / 65535.0)
+}
+
 /// Rounds `v` in -1..1 to a signed 16-bit step, halves away from zero's left, as the shaders do.
 fn snorm16(v: f32) -> u32 {
     (v * 32767.0 + 0.5).floor() as i32 as u32
@@ -110,6 +122,19 @@ mod tests {
             prop_assert!((0.0..=1.0).contains(&a));
             prop_assert!(b >= a - 1e-6);
         }
+    }
+
+    #[test]
+    fn shares_come_back_from_one_word() {
+        for (low, high) in [(0.0, 1.0), (1.0, 0.0), (0.25, 0.7), (1.0, 1.0)] {
+            let back = unpack_shares(pack_shares([low, high]));
+            assert!(
+                (back[0] - low).abs() < 8e-6 && (back[1] - high).abs() < 8e-6,
+                "{back:?}"
+            );
+        }
+        assert_eq!(unpack_shares(pack_shares([-3.0, 7.0])), [0.0, 1.0]);
+        assert_eq!(unpack_shares(pack_shares([f32::NAN, 0.0])), [0.0, 0.0]);
     }
 
     #[test]

@@ -34,6 +34,8 @@ pub enum Guide {
     /// The directions at the vertices, laid on the surface; lengths and signs mean nothing, and one of no length says
     /// nothing.
     Painted,
+    /// The directions at the vertices where they say any, and elsewhere the shape, across limbs.
+    PaintedOrAcross,
 }
 
 /// How the strokes of one part run.
@@ -189,16 +191,21 @@ fn pulls(
     let mean_bends = mean_bends(nodes, &bends, &areas);
 
     // Ask the part's guide for a direction at every node.
+    let said_at = |node: usize| painted.get(node).copied().unwrap_or_default();
+    let bent_at = |node: usize, across: bool| {
+        let mean = mean_bends.get(&nodes.parts[node]);
+        let mean = mean.copied().unwrap_or_default();
+        bent(&frames[node], &bends[node], mean, across)
+    };
     let pull = |node: usize| {
         let (frame, part) = (&frames[node], nodes.parts[node]);
         let PartGuide { guide, angle } = guide_of_part(part);
         let said = match guide {
             Guide::Along(direction) => laid(frame, direction),
-            Guide::Painted => painted.get(node).copied().unwrap_or_default(),
-            Guide::Curvature { across } => {
-                let mean = mean_bends.get(&part).copied().unwrap_or_default();
-                bent(frame, &bends[node], mean, across)
-            }
+            Guide::Painted => said_at(node),
+            Guide::PaintedOrAcross if said_at(node) != Complex::default() => said_at(node),
+            Guide::PaintedOrAcross => bent_at(node, true),
+            Guide::Curvature { across } => bent_at(node, across),
         };
 
         // Weigh it by the area around the node, and turn it by the part's angle.

@@ -1,6 +1,6 @@
 //! What a scene contains, to tell which keys of a style cannot act.
 
-use npr_scene::{Part, Scene};
+use npr_scene::{Bone, Part, Scene};
 use npr_stylesheet::Facts;
 
 /// Lists which of the things that keys of styles refer to a scene contains; `smoke` says whether it has smoke.
@@ -14,5 +14,6 @@ pub fn facts_of(scene: &Scene, smoke: bool) -> Facts {
         textures: materials.any(|material| material.base_color_texture.is_some()),
         vertex_colors: parts().any(|part| part.colors.is_some()),
         lights: !scene.lights.is_empty(),
+        faces: !scene.skins.is_empty() && scene.bones().contains_key(&Bone::HEAD),
     }
 }

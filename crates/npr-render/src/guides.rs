@@ -29,6 +29,8 @@ enum Source {
     Attribute,
     /// The file, by vertex colours.
     VertexColor,
+    /// The limbs of a figure, and the way its surface bends where no limb moves it.
+    Limbs,
     /// The strongest light.
     Light,
 }
@@ -44,8 +46,8 @@ pub(crate) struct StrokeGuide {
 }
 
 impl StrokeGuide {
-    /// What a part's ink asks for; `has` says whether its vertices have directions, and colours.
-    fn of(ink: &Ink, has: [bool; 2]) -> Self {
+    /// What a part's ink asks for; `has` says whether its vertices have directions, colours, and limbs.
+    fn of(ink: &Ink, has: [bool; 3]) -> Self {
         let across = ink.follow != Follow::Along;
         let source = match (ink.direction, ink.follow) {
             (Some(direction), _) if ink.direction_space == StrokeSpace::Object => {
@@ -55,6 +57,7 @@ impl StrokeGuide {
             (None, Follow::Light) => Source::Light,
             (None, Follow::Attribute) if has[0] => Source::Attribute,
             (None, Follow::VertexColor) if has[1] => Source::VertexColor,
+            (None, Follow::Limbs) if has[2] => Source::Limbs,
             (None, _) => Source::HalfEdgeMesh { across },
         };
         let asks = matches!(ink.follow, Follow::Attribute | Follow::VertexColor);
@@ -76,6 +79,7 @@ impl StrokeGuide {
             guide: match self.source {
                 Source::HalfEdgeMesh { across } => Guide::Curvature { across },
                 Source::World(direction) => Guide::Along(direction),
+                Source::Limbs => Guide::PaintedOrAcross,
                 _ => Guide::Painted,
             },
             angle: self.angle,
@@ -93,16 +97,20 @@ impl Guides {
     /// What the inks of a model's parts ask for.
     pub fn new(model: &Model, inks: &[Ink]) -> Self {
         let asks = |ink: &Ink| {
-            let paints = matches!(ink.follow, Follow::Attribute | Follow::VertexColor);
-            paints && ink.mapping != Mapping::Screen
+            let of_vertices = matches!(
+                ink.follow,
+                Follow::Attribute | Follow::VertexColor | Follow::Limbs
+            );
+            of_vertices && ink.mapping != Mapping::Screen
         };
-        let mut has = vec![[false; 2]; inks.len()];
+        let mut has = vec![[false; 3]; inks.len()];
         if inks.iter().any(asks) {
             for (i, vertex) in model.vertices.iter().enumerate() {
                 // Vertices without triangles may have no part.
-                if let Some([attribute, color]) = has.get_mut(vertex.part as usize) {
+                if let Some([attribute, color, limb]) = has.get_mut(vertex.part as usize) {
                     *attribute |= painted(model, i) != Vec3::ZERO;
                     *color |= color_direction(vertex) != Vec3::ZERO;
+                    *limb |= model.limbs.direction_at(i) != Vec3::ZERO;
                 }
             }
         }
@@ -126,7 +134,12 @@ impl Guides {
         light: &LightSource,
     ) -> Vec<[f32; 3]> {
         // Leave the list empty where no part needs directions at its vertices.
-        let is_painted = |guide: &StrokeGuide| guide.of_chart().guide == Guide::Painted;
+        let is_painted = |guide: &StrokeGuide| {
+            matches!(
+                guide.of_chart().guide,
+                Guide::Painted | Guide::PaintedOrAcross
+            )
+        };
         if !self.of_parts.iter().any(is_painted) {
             return Vec::new();
         }
@@ -140,6 +153,7 @@ impl Guides {
                 Some(Source::Light) => return light.towards(positions[i]),
                 Some(Source::Object(direction)) => Vec3::from(direction),
                 Some(Source::Attribute) => painted(model, i),
+                Some(Source::Limbs) => model.limbs.direction_at(i),
                 Some(Source::VertexColor) => color_direction(vertex),
             };
             model.posed_direction(own, influence).to_array()

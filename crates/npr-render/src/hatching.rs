@@ -48,6 +48,8 @@ pub(crate) struct Inked {
     /// How distorted strokes are around each vertex, 0..1; empty without charts. Charts that follow the light have
     /// none.
     pub chart_distortions: Vec<f32>,
+    /// How much of its shade the pen keeps on faces, 0..1, for every part of the model.
+    faces: Vec<f32>,
     /// What was done in another way than the style asks, for the user.
     pub notices: Vec<String>,
     /// What strokes run along.
@@ -97,6 +99,7 @@ pub(crate) fn add_ink(
     let mut inked = Inked {
         notices: notices_of(model, &inks, &guides, parts),
         guides,
+        faces: inks.iter().map(|ink| ink.faces).collect(),
         ..Inked::default()
     };
     inked.fit_to_surfaces(model, style, parts);
@@ -329,6 +332,30 @@ impl Inked {
             let errors = self.add_charts(model, style, &surfaces, parts, None);
             self.chart_distortions = chart_distortions_of(model, &errors);
         }
+    }
+
+    /// What the pen does at every vertex, packed as `Vertex::pen`; sets [`Part::SPARED`] in the parts with faces of
+    /// which it leaves out some of the shade. Empty where it does the same everywhere.
+    pub fn pens(&self, model: &Model, parts: &mut [Part]) -> Vec<u32> {
+        // Find out what it leaves out.
+        let mut spared = vec![0.0; model.limbs.faces.len()];
+        for (i, (spared, vertex)) in spared.iter_mut().zip(&model.vertices).enumerate() {
+            // Vertices without triangles may have no part.
+            let part = vertex.part as usize;
+            let Some(faces) = self.faces.get(part) else {
+                continue;
+            };
+            *spared = model.limbs.face_at(i) * (1.0 - faces);
+            if *spared > 0.0 && parts[part].flags & Part::HATCH != 0 {
+                parts[part].flags |= Part::SPARED;
+            }
+        }
+
+        // Pack it with how distorted charts are.
+        let known = self.chart_distortions.len().max(spared.len());
+        let share = |shares: &[f32], i: usize| shares.get(i).copied().unwrap_or_default();
+        let pen = |i| math::pack_shares([share(&self.chart_distortions, i), share(&spared, i)]);
+        (0..known).map(pen).collect()
     }
 
     /// Turns the strokes that follow the light to where it shines from: charts of surfaces, and strokes on the picture.

@@ -45,6 +45,7 @@ mod joined;
 mod kept;
 mod layer_pixel;
 mod light;
+mod limbs;
 mod line_backdrop;
 mod line_colors;
 mod lines;

@@ -126,9 +126,9 @@ impl StyledModel {
             true => calming(model, style.shade.calm),
             false => Vec::new(),
         };
-        let laid = (&inked.chart_distortions[..], &calming[..]);
+        let pens = inked.pens(model, &mut parts);
         Ok(Self {
-            vertices: styled_vertices(model, style, options, laid),
+            vertices: styled_vertices(model, style, options, (&pens, &calming)),
             calming,
             parts,
             smoke_part,
@@ -149,7 +149,7 @@ impl StyledModel {
                 normal: calmed(moved.normal, calming),
                 width: vertex.width,
                 color: vertex.color,
-                chart_distortion: vertex.chart_distortion,
+                pen: vertex.pen,
                 ..*moved
             };
         }
@@ -283,13 +283,13 @@ fn ramp(look: &Look<'_>) -> [[f32; 4]; 8] {
     rows
 }
 
-/// Vertices with the width that the style's source gives them, their colour where the style shows it, and the chart
-/// distortions of strokes.
+/// Vertices with the width that the style's source gives them, their colour where the style shows it, and what the pen
+/// does there.
 fn styled_vertices(
     model: &Model,
     style: &Style,
     options: &RendererOptions,
-    (chart_distortions, calming): (&[f32], &[Vec3]),
+    (pens, calming): (&[u32], &[Vec3]),
 ) -> Vec<Vertex> {
     let width = VertexWidth::new(model, style, options);
     let shows_colors = style.shade.use_vertex_colors;
@@ -304,7 +304,7 @@ fn styled_vertices(
             Vertex {
                 width: width.at(i),
                 color,
-                chart_distortion: chart_distortions.get(i).copied().unwrap_or_default(),
+                pen: pens.get(i).copied().unwrap_or_default(),
                 normal: calmed(vertex.normal, calming.get(i).copied().unwrap_or_default()),
                 ..*vertex
             }

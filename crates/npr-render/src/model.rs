@@ -5,6 +5,7 @@ use crate::error::{RenderError, check_count};
 use crate::file_light::{self, FileLight};
 use crate::instance::Instance;
 use crate::kept::Cache;
+use crate::limbs::Limbs;
 use crate::part_info::PartInfo;
 use crate::placement::{self, Bounds, around};
 use crate::smoke::Smoke;
@@ -27,6 +28,8 @@ pub struct Model {
     pub(crate) influences: Vec<Influence>,
     /// Directions of strokes at the vertices, in the space of their positions; may end early, zeros follow.
     pub(crate) painted: Vec<[f32; 3]>,
+    /// Directions of strokes on limbs at the vertices, and how much of a face each is; may end early, zeros follow.
+    pub(crate) limbs: Limbs,
     pub(crate) palette: Vec<Matrix>,
     pub(crate) triangles: Vec<Triangle>,
     /// Edges with the folds of their faces; [`Model::edges_by`] gives those that a style measures.
@@ -83,6 +86,7 @@ impl Model {
             vertices: Vec::new(),
             influences: Vec::new(),
             painted: Vec::new(),
+            limbs: Limbs::default(),
             palette: Vec::new(),
             triangles: Vec::new(),
             edges: Vec::new(),
@@ -163,6 +167,9 @@ impl Model {
         }));
 
         // Append vertices, triangles and edges, numbered as in the whole model.
+        let surface = (&instance.vertices[..], &instance.influences[..]);
+        let limbs = Limbs::of(scene, object, node, surface);
+        self.limbs.append(base[0] as usize, limbs);
         let joint_count = self.palette.len() as u32 - first_joint;
         self.influences
             .extend(instance.influences.iter().map(|influence| {

@@ -100,6 +100,9 @@ impl Bone {
     /// The hips, which all other bones hang on.
     pub const HIPS: Self = Self(0);
 
+    /// The head, which moves the face.
+    pub const HEAD: Self = Self(5);
+
     /// All bones, each behind the one that it hangs on.
     pub fn all() -> impl Iterator<Item = Self> {
         (0..BONES.len() as u8).map(Self)
@@ -163,6 +166,7 @@ mod tests {
             assert_eq!(Bone::of_node(bone.name()), Some(bone));
         }
         assert_eq!(Bone::all().filter(|bone| bone.is_required()).count(), 15);
+        assert_eq!([Bone::HIPS, Bone::HEAD].map(Bone::name), ["hips", "head"]);
         assert_eq!(Bone::named("Hips"), None);
     }
 

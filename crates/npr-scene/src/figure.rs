@@ -23,8 +23,8 @@ impl Figure {
         expression::find(&self.expressions, name)
     }
 
-    /// The nodes whose morphs its expressions move.
-    pub(crate) fn morphed_nodes(&self) -> impl Iterator<Item = u32> {
+    /// The nodes whose morphs its expressions move, a node as often as they do.
+    pub fn morphed_nodes(&self) -> impl Iterator<Item = u32> {
         let morphs = self.expressions.iter().flat_map(|face| &face.morphs);
         morphs.map(|bind| bind.node)
     }

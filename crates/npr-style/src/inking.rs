@@ -13,6 +13,7 @@ use crate::paint::painted_level;
 use crate::ramp::ramp_coordinate;
 use npr_core::geometry::{ChartCorners, Part, Triangle};
 use npr_core::grain::paper_height;
+use npr_core::math::unpack_shares;
 use npr_core::raster::ID_MASK;
 use npr_core::surface::{blend, blend2, weights_around};
 use npr_core::texture::HEADER_WORDS;
@@ -68,12 +69,19 @@ pub(crate) fn ink_over(part: &Part, range: [f32; 2]) -> Option<f32> {
     if !painted && tone_value(lightest, level_of(part, range[0])) > part.threshold {
         Some(0.0)
     } else if tone_value(darkest, level_of(part, range[1])) < part.threshold {
-        // The grain of the paper leaves white in a hatch however dark it is.
+        // The grain of the paper leaves white in a hatch however dark it is, and so does a face.
         let is_grained = part.flags & Part::HATCH != 0 && part.hatch_grain > 0.0;
-        (!is_grained).then_some(1.0)
+        let is_spared = part.flags & Part::SPARED != 0;
+        (!is_grained && !is_spared).then_some(1.0)
     } else {
         None
     }
+}
+
+/// Luminance of a place of which the pen leaves out a share of the shade: it lies that much lighter on the ramp, so that
+/// the shade covers less, and what is left of it tapers as before.
+fn spared_level(l: f32, spared: f32) -> f32 {
+    l + spared
 }
 
 /// Pressure, as a share of the full one, over which the ink of a hatch grows from none to all.
@@ -177,7 +185,10 @@ impl Layers<'_> {
         let places = [px, [px[0] + 1.0, px[1]], [px[0], px[1] + 1.0]];
         let (ndc, step) = (self.view.ndc_at(px), self.view.pixel_ndc());
         let weights = weights_around(corners.clip, ndc, step);
-        let lit = self.levels_at(part, corners, px, weights, dark);
+        let mut lit = self.levels_at(part, corners, px, weights, dark);
+        if part.flags & Part::SPARED != 0 {
+            lit = std::array::from_fn(|i| spared_level(lit[i], self.pen_at(id, weights[i])[1]));
+        }
         let white = self.paint_at(id, part, weights);
         let l: [f32; 3] = std::array::from_fn(|i| painted_level(lit[i], white[i], part.threshold));
         // Clamp the change: beyond a silhouette the surface runs on to anywhere.
@@ -192,7 +203,7 @@ impl Layers<'_> {
         if let Some(ink) = ink_of_level(part, l[0]) {
             return on_paper(part, ink, px);
         }
-        let chart_distortion = self.chart_distortion_at(id, weights[0]);
+        let [chart_distortion, _] = self.pen_at(id, weights[0]);
         let per_px = length([lit[1] - lit[0], lit[2] - lit[0]]) * white[0];
         let abrupt = abruptness(per_px, part.spacing_px);
         let (place, chart_distortion) =
@@ -321,13 +332,12 @@ impl Layers<'_> {
         }
     }
 
-    /// Distortion of the stroke chart on triangle `id` at these weights of its corners, 0..1.
-    fn chart_distortion_at(&self, id: u32, weights: [f32; 3]) -> f32 {
+    /// Two shares that triangle `id` has for the pen at these weights of its corners, 0..1: the distortion of its
+    /// stroke chart, and how much of its shade is left out.
+    fn pen_at(&self, id: u32, weights: [f32; 3]) -> [f32; 2] {
         let Triangle { corners, .. } = self.triangles[((id & ID_MASK) - 1) as usize];
-        blend(
-            weights,
-            corners.map(|v| self.vertices[v as usize].chart_distortion),
-        )
+        let shares = corners.map(|v| unpack_shares(self.vertices[v as usize].pen));
+        [0, 1].map(|i| blend(weights, shares.map(|share| share[i])))
     }
 
     /// One layer of a hatch, from the level of its tile on which strokes lie as far apart on screen as the part asks.

@@ -42,8 +42,12 @@ pub enum Mapping {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Follow {
-    /// Round the form: the direction in which the surface bends most.
+    /// The limbs of figures that a skeleton bends: on legs strokes lean to where the leg begins, on arms to the hand, on
+    /// the trunk to its middle line [Suzuki 2004, section 2.3.1]; hair and tails take strokes along. What no limb moves
+    /// takes `around`.
     #[default]
+    Limbs,
+    /// Round the form: the direction in which the surface bends most.
     Around,
     /// Along the form: the direction in which it bends least.
     Along,
@@ -99,10 +103,15 @@ pub struct Ink {
     pub paint: f32 = 0.0,
     /// What strokes are fixed to; default `surface`.
     pub mapping: Mapping = Mapping::Surface,
-    /// For mapping `surface`: what strokes run along; default `around`. On mapping `screen` too, `light` turns them.
+    /// How much of their hatched shade the faces of figures keep, 0..1; default 0.25: hatching suits bodies, and ages
+    /// faces [Suzuki 2004, section 2.3.2]. A face is what the bone of the head moves; where expressions move meshes, it
+    /// lies on those alone. 1 treats faces as all else, 0 leaves them as white as paint lets them.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub faces: f32 = 0.25,
+    /// For mapping `surface`: what strokes run along; default `limbs`. On mapping `screen` too, `light` turns them.
     /// With a light that is fixed to the camera, `light` lays strokes anew in every view: for films take `light.space
     /// = "world"`.
-    pub follow: Follow = Follow::Around,
+    pub follow: Follow = Follow::Limbs,
     /// For mapping `surface`: a direction that strokes follow instead; default none. `[0, 1, 0]` lets them fall like
     /// cloth.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -133,6 +142,9 @@ pub struct RuleInk over Ink {
     pub paint: f32,
     /// What strokes are fixed to.
     pub mapping: Mapping,
+    /// How much of their hatched shade faces keep, 0..1.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub faces: f32,
     /// What strokes on the surface run along; without a `direction` beside it the style's own gives way.
     pub follow: Follow,
     /// A direction that strokes on the surface follow.

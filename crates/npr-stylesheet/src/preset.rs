@@ -47,16 +47,16 @@ const PRESETS: &[Preset] = presets![
     "ink" 5 "../presets/ink.toml",
     "g-pen" 6 "../presets/g-pen.toml",
     "technical" 5 "../presets/technical.toml",
-    "comic-silver" 4 "../presets/comic-silver.toml",
-    "comic-modern" 6 "../presets/comic-modern.toml",
-    "comic-light" 4 "../presets/comic-light.toml",
+    "comic-silver" 5 "../presets/comic-silver.toml",
+    "comic-modern" 7 "../presets/comic-modern.toml",
+    "comic-light" 5 "../presets/comic-light.toml",
     "simple-comic" 5 "../presets/simple-comic.toml",
-    "crosshatch" 4 "../presets/crosshatch.toml",
-    "stipple" 4 "../presets/stipple.toml",
-    "pencil" 5 "../presets/pencil.toml",
-    "screentone" 4 "../presets/screentone.toml",
+    "crosshatch" 5 "../presets/crosshatch.toml",
+    "stipple" 5 "../presets/stipple.toml",
+    "pencil" 6 "../presets/pencil.toml",
+    "screentone" 5 "../presets/screentone.toml",
     "inked" 4 "../presets/inked.toml",
-    "manga" 4 "../presets/manga.toml",
+    "manga" 5 "../presets/manga.toml",
     "brush" 5 "../presets/brush.toml",
     "ink-wash" 5 "../presets/ink-wash.toml",
     "sketch" 4 "../presets/sketch.toml",
@@ -74,7 +74,7 @@ const PRESETS: &[Preset] = presets![
     "smoke-cel-2" 4 "../presets/smoke-cel-2.toml",
     "smoke-cel-3" 4 "../presets/smoke-cel-3.toml",
     "smoke-ink" 5 "../presets/smoke-ink.toml",
-    "smoke-comic" 4 "../presets/smoke-comic.toml",
+    "smoke-comic" 5 "../presets/smoke-comic.toml",
     "cloud" 4 "../presets/cloud.toml",
     "explosion" 4 "../presets/explosion.toml",
     "okuya" 1 "../presets/okuya.toml",
@@ -117,17 +117,21 @@ const OLDER: &[Preset] = presets![
     "comic-light" 1 "../presets/older/comic-light-1.toml",
     "comic-light" 2 "../presets/older/comic-light-2.toml",
     "comic-light" 3 "../presets/older/comic-light-3.toml",
+    "comic-light" 4 "../presets/older/comic-light-4.toml",
     "comic-modern" 1 "../presets/older/comic-modern-1.toml",
     "comic-modern" 2 "../presets/older/comic-modern-2.toml",
     "comic-modern" 3 "../presets/older/comic-modern-3.toml",
     "comic-modern" 4 "../presets/older/comic-modern-4.toml",
     "comic-modern" 5 "../presets/older/comic-modern-5.toml",
+    "comic-modern" 6 "../presets/older/comic-modern-6.toml",
     "comic-silver" 1 "../presets/older/comic-silver-1.toml",
     "comic-silver" 2 "../presets/older/comic-silver-2.toml",
     "comic-silver" 3 "../presets/older/comic-silver-3.toml",
+    "comic-silver" 4 "../presets/older/comic-silver-4.toml",
     "crosshatch" 1 "../presets/older/crosshatch-1.toml",
     "crosshatch" 2 "../presets/older/crosshatch-2.toml",
     "crosshatch" 3 "../presets/older/crosshatch-3.toml",
+    "crosshatch" 4 "../presets/older/crosshatch-4.toml",
     "explosion" 1 "../presets/older/explosion-1.toml",
     "explosion" 2 "../presets/older/explosion-2.toml",
     "explosion" 3 "../presets/older/explosion-3.toml",
@@ -154,6 +158,7 @@ const OLDER: &[Preset] = presets![
     "manga" 1 "../presets/older/manga-1.toml",
     "manga" 2 "../presets/older/manga-2.toml",
     "manga" 3 "../presets/older/manga-3.toml",
+    "manga" 4 "../presets/older/manga-4.toml",
     "night" 1 "../presets/older/night-1.toml",
     "night" 2 "../presets/older/night-2.toml",
     "night" 3 "../presets/older/night-3.toml",
@@ -161,6 +166,7 @@ const OLDER: &[Preset] = presets![
     "pencil" 2 "../presets/older/pencil-2.toml",
     "pencil" 3 "../presets/older/pencil-3.toml",
     "pencil" 4 "../presets/older/pencil-4.toml",
+    "pencil" 5 "../presets/older/pencil-5.toml",
     "pencil-outline" 1 "../presets/older/pencil-outline-1.toml",
     "pencil-outline" 2 "../presets/older/pencil-outline-2.toml",
     "pencil-outline" 3 "../presets/older/pencil-outline-3.toml",
@@ -168,6 +174,7 @@ const OLDER: &[Preset] = presets![
     "screentone" 1 "../presets/older/screentone-1.toml",
     "screentone" 2 "../presets/older/screentone-2.toml",
     "screentone" 3 "../presets/older/screentone-3.toml",
+    "screentone" 4 "../presets/older/screentone-4.toml",
     "simple-comic" 1 "../presets/older/simple-comic-1.toml",
     "simple-comic" 2 "../presets/older/simple-comic-2.toml",
     "simple-comic" 3 "../presets/older/simple-comic-3.toml",
@@ -184,6 +191,7 @@ const OLDER: &[Preset] = presets![
     "smoke-comic" 1 "../presets/older/smoke-comic-1.toml",
     "smoke-comic" 2 "../presets/older/smoke-comic-2.toml",
     "smoke-comic" 3 "../presets/older/smoke-comic-3.toml",
+    "smoke-comic" 4 "../presets/older/smoke-comic-4.toml",
     "smoke-ink" 1 "../presets/older/smoke-ink-1.toml",
     "smoke-ink" 2 "../presets/older/smoke-ink-2.toml",
     "smoke-ink" 3 "../presets/older/smoke-ink-3.toml",
@@ -191,6 +199,7 @@ const OLDER: &[Preset] = presets![
     "stipple" 1 "../presets/older/stipple-1.toml",
     "stipple" 2 "../presets/older/stipple-2.toml",
     "stipple" 3 "../presets/older/stipple-3.toml",
+    "stipple" 4 "../presets/older/stipple-4.toml",
     "technical" 1 "../presets/older/technical-1.toml",
     "technical" 2 "../presets/older/technical-2.toml",
     "technical" 3 "../presets/older/technical-3.toml",
@@ -248,7 +257,7 @@ pub fn find(name: &str) -> Result<&'static Preset, StyleError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::PartNames;
+    use crate::{Follow, Mapping, PartNames, Tone};
     use crate::{OutlineMethod, Style, WidthSource};
 
     #[test]
@@ -386,9 +395,26 @@ mod tests {
         }
     }
 
-    /// The first version of presets with calm tones and rounded edges, where a newer one came after it. It has no ink
-    /// on faces: that is what the newer one brought.
-    const FIRST_CALM: [(&str, u32); 5] = [
+    /// The first version of presets with calm tones and rounded edges, where a newer one came after it.
+    const FIRST_CALM: [(&str, u32); 14] = [
+        ("brush", 4),
+        ("charcoal", 3),
+        ("comic-light", 4),
+        ("comic-modern", 6),
+        ("comic-silver", 4),
+        ("crosshatch", 4),
+        ("g-pen", 5),
+        ("ink-wash", 4),
+        ("manga", 4),
+        ("pencil", 5),
+        ("screentone", 4),
+        ("sketch", 3),
+        ("smoke-comic", 4),
+        ("stipple", 4),
+    ];
+
+    /// The last version of presets that left painted eyes empty.
+    const LAST_WITHOUT_EYES: [(&str, u32); 5] = [
         ("brush", 4),
         ("charcoal", 3),
         ("g-pen", 5),
@@ -398,7 +424,10 @@ mod tests {
 
     #[test]
     fn versions_from_before_calm_tones_and_rounded_edges_have_neither() {
-        let is_calm = |older: &&Preset| FIRST_CALM.contains(&(older.name, older.version));
+        let is_calm = |older: &&Preset| {
+            let mut firsts = FIRST_CALM.iter();
+            firsts.any(|(name, first)| *name == older.name && *first <= older.version)
+        };
         for older in OLDER.iter().filter(|older| !is_calm(older)) {
             let style =
                 Style::preset(&format!("{}@{}", older.name, older.version)).expect("a preset");
@@ -415,6 +444,24 @@ mod tests {
     }
 
     #[test]
+    fn versions_from_before_limbs_and_faces_hatch_as_they_did() {
+        let hatch = |name: &str| {
+            let ink = Style::preset(name).expect("a preset").ink;
+            let follows = ink.mapping == Mapping::Surface && ink.follow == Follow::Limbs;
+            let is_drawn = !matches!(ink.tone, Tone::Off | Tone::Ink);
+            is_drawn.then_some((follows, ink.faces < 1.0))
+        };
+        for older in OLDER {
+            let name = format!("{}@{}", older.name, older.version);
+            assert!(
+                matches!(hatch(&name), None | Some((false, false))),
+                "{name}"
+            );
+        }
+        assert_eq!(hatch("comic-silver"), Some((true, true)));
+    }
+
+    #[test]
     fn dark_paint_of_faces_is_ink_from_a_version_on() {
         let inks_faces = |name: &str| {
             let style = Style::preset(name).expect("a preset");
@@ -425,7 +472,7 @@ mod tests {
             };
             style.resolve(names).ink.paint > 0.0
         };
-        for (name, version) in FIRST_CALM {
+        for (name, version) in LAST_WITHOUT_EYES {
             assert!(inks_faces(name), "{name}");
             assert!(!inks_faces(&format!("{name}@{version}")), "{name}");
         }

@@ -8,6 +8,7 @@ mod hulls_and_words;
 mod id_maps;
 mod kernels;
 mod layers;
+mod limbs;
 mod lines;
 mod models;
 mod pixel_strokes;

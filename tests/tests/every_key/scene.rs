@@ -13,7 +13,7 @@ use npr_render::{
     Picture, Renderer, RendererOptions, Smoke, Sphere, apply_id_maps,
 };
 use npr_scene::{
-    Image, Light, LightKind, Material, Node, Scene, TextureTransform, TextureUse, Wrap,
+    Image, Light, LightKind, Material, Node, Scene, Skin, TextureTransform, TextureUse, Wrap,
 };
 use npr_stylesheet::{Background, LineForm, Stated, Style};
 use npr_tests::{Object, boxed, placed, scene_of};
@@ -254,6 +254,24 @@ fn scene() -> Scene {
         ..Node::default()
     });
     scene.materials.push(Material::default());
+
+    // The ball is the head of a figure.
+    let joint = |name: &str| Node {
+        name: name.to_owned(),
+        ..Node::default()
+    };
+    let first = scene.nodes.len() as u32;
+    scene.nodes.extend([joint("hips"), joint("head")]);
+    let still = scene.nodes[first as usize].world_from_node;
+    scene.skins.push(Skin {
+        name: String::new(),
+        joints: vec![first, first + 1],
+        inverse_bind: vec![still; 2],
+    });
+    scene.nodes[0].skin = Some(0);
+    let ball = &mut scene.meshes[0].parts[0];
+    ball.joints = Some(vec![[1, 0, 0, 0]; ball.positions.len()]);
+    ball.weights = Some(vec![[1.0, 0.0, 0.0, 0.0]; ball.positions.len()]);
     scene
 }
 

@@ -193,7 +193,7 @@ fn vertex(position: [f32; 3], normal: [f32; 3], part: u32, random: &mut Random) 
         weld_normal: math::pack_unit(normal),
         width: random.unit(),
         part,
-        chart_distortion: random.unit(),
+        pen: npr_core::math::pack_shares([random.unit(), random.unit()]),
     }
 }
 

@@ -59,6 +59,8 @@ pub struct Facts {
     pub vertex_colors: bool,
     /// Lights.
     pub lights: bool,
+    /// Figures with the bone of a head.
+    pub faces: bool,
 }
 
 impl Facts {
@@ -69,6 +71,7 @@ impl Facts {
         textures: true,
         vertex_colors: true,
         lights: true,
+        faces: true,
     };
 }
 

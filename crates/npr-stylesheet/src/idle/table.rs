@@ -627,6 +627,7 @@ pub(super) const ENTRIES: &[Entry] = &[
             "ink.light_at",
             "ink.threshold",
             "ink.paint",
+            "ink.faces",
             "ink.mapping",
             "ink.follow",
             "ink.direction",
@@ -638,6 +639,7 @@ pub(super) const ENTRIES: &[Entry] = &[
     ),
     entry(
         &[
+            "ink.faces",
             "ink.mapping",
             "ink.follow",
             "ink.direction",
@@ -646,6 +648,11 @@ pub(super) const ENTRIES: &[Entry] = &[
         ],
         |c| !c.hatches(),
         "ink.tone is ink, which has no strokes",
+    ),
+    entry(
+        &["ink.faces"],
+        |c| !c.on.scene.faces,
+        "no figure of the scene has a face",
     ),
     entry(
         &["ink.direction", "ink.direction_space"],
