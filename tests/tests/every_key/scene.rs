@@ -13,7 +13,8 @@ use npr_render::{
     Picture, Renderer, RendererOptions, Smoke, Sphere, apply_id_maps,
 };
 use npr_scene::{
-    Image, Light, LightKind, Material, Node, Scene, Skin, TextureTransform, TextureUse, Wrap,
+    Image, Light, LightKind, Material, Node, Scene, Skin, TextureTransform, TextureUse, Transform,
+    Wrap,
 };
 use npr_stylesheet::{Background, LineForm, Stated, Style};
 use npr_tests::{Object, boxed, placed, scene_of};
@@ -255,22 +256,30 @@ fn scene() -> Scene {
     });
     scene.materials.push(Material::default());
 
-    // The ball is the head of a figure.
+    // The ball is the head of a figure, and above its middle the trunk: what is dark shows strokes.
     let joint = |name: &str| Node {
         name: name.to_owned(),
+        rest: Some(Transform::default()),
         ..Node::default()
     };
     let first = scene.nodes.len() as u32;
     scene.nodes.extend([joint("hips"), joint("head")]);
     let still = scene.nodes[first as usize].world_from_node;
+    let raised = |height: f32| {
+        let mut matrix = still;
+        matrix[3][1] = height;
+        matrix
+    };
+    scene.nodes[first as usize + 1].world_from_node = raised(1.0);
     scene.skins.push(Skin {
         name: String::new(),
         joints: vec![first, first + 1],
-        inverse_bind: vec![still; 2],
+        inverse_bind: vec![still, raised(-1.0)],
     });
     scene.nodes[0].skin = Some(0);
     let ball = &mut scene.meshes[0].parts[0];
-    ball.joints = Some(vec![[1, 0, 0, 0]; ball.positions.len()]);
+    let joint_at = |p: &[f32; 3]| [u16::from(p[1] < 0.2), 0, 0, 0];
+    ball.joints = Some(ball.positions.iter().map(joint_at).collect());
     ball.weights = Some(vec![[1.0, 0.0, 0.0, 0.0]; ball.positions.len()]);
     scene
 }
