@@ -59,30 +59,31 @@ impl Stamps {
         id: u64,
         inked: &dyn Fn(&StrokePoint) -> InkPoint,
     ) -> Vec<InkPoint> {
-        // Know how long it is, and how far apart they lie.
-        let back = points.first().copied().filter(|_| is_closed);
-        let ends: Vec<&StrokePoint> = points.iter().chain(&back).collect();
-        let pieces = ends.windows(2).map(|pair| (pair[0], pair[1]));
-        let length: f64 = pieces
-            .clone()
-            .map(|(a, b)| distance(a.position, b.position))
-            .sum();
-        let (Some(first), true) = (points.first(), length.is_finite()) else {
+        // Know where the texture of each piece begins and ends; where it is squeezed together, there is none.
+        let Some(first) = points.first() else {
             return Vec::new();
         };
-        let spacing = self.spacing_over(length);
+        let back = Some(first).filter(|_| is_closed);
+        let ends: Vec<&StrokePoint> = points.iter().chain(back).collect();
         let start = if first.u.abs() < 1e9 { 0.0 } else { first.u };
-
-        // Set one at every multiple, whichever way the texture runs; where it is squeezed together, none.
-        let mut stamps = Vec::new();
-        for (index, (a, b)) in pieces.enumerate() {
+        let pieces = ends.windows(2).enumerate().filter_map(|(index, pair)| {
+            let (a, b) = (pair[0], pair[1]);
             let piece = distance(a.position, b.position);
-            let forward = [0, 1].map(|i| (b.position[i] - a.position[i]) / piece);
             let is_back = index + 1 == points.len();
-            let [from, to] = [a.u - start, if is_back { a.u + piece } else { b.u } - start];
-            if !((to - from).abs() <= SQUEEZED_MOST * piece) {
-                continue;
-            }
+            let [from, to] = [a.u, if is_back { a.u + piece } else { b.u }].map(|u| u - start);
+            let is_even = (to - from).abs() <= SQUEEZED_MOST * piece && piece.is_finite();
+            is_even.then_some((a, b, piece, [from, to]))
+        });
+        let length: f64 = pieces
+            .clone()
+            .map(|(.., [from, to])| (to - from).abs())
+            .sum();
+        let spacing = self.spacing_over(length);
+
+        // Set one at every multiple, whichever way it runs.
+        let mut stamps = Vec::new();
+        for (a, b, piece, [from, to]) in pieces {
+            let forward = [0, 1].map(|i| (b.position[i] - a.position[i]) / piece);
             let (mut number, step) = match to >= from {
                 true => ((from / spacing).ceil(), 1.0),
                 false => ((from / spacing).floor(), -1.0),
