@@ -41,7 +41,7 @@ pub fn stroke(places: impl IntoIterator<Item = [f64; 2]>, closed: bool) -> Strok
                 (f64::from(SIZE[1]) / 2.0 - position[1]) as f32,
                 0.0,
             ],
-            color: None,
+            ..StrokePoint::default()
         }
     };
     Stroke {

@@ -2,7 +2,7 @@
 
 use crate::arguments::{
     AnimateArguments, DrawingArguments, Frames, LineFormat, LinesArguments, LookArguments,
-    PoseArguments, RenderArguments,
+    PoseArguments, RenderArguments, Switch,
 };
 use crate::dump::dump_style;
 use crate::ending::has_ending;
@@ -20,7 +20,7 @@ use crate::playing::{Playing, Stage};
 use crate::progress::Progress;
 use crate::reel::{Codec, Encoding, FilmFormat, Reel, Stills, Whole, check_frames, check_rate};
 use crate::render;
-use crate::screening::{Take, screened};
+use crate::screening::{Step, Take, screened, steps};
 use crate::source::Source;
 use crate::target::Target;
 use crate::timings::Timings;
@@ -29,6 +29,7 @@ use npr_core::camera::Camera;
 use npr_gpu::engine::{Engine, PassTime};
 use npr_render::{RendererOptions, Shot, Smoke, cameras_of};
 use npr_scene::Scene;
+use npr_stylesheet::Style;
 use std::io::Write;
 use std::path::Path;
 
@@ -268,10 +269,15 @@ impl<'a> FilmJob<'a> {
         })
     }
 
-    /// Warns of options that have no effect in the frames of the film.
-    fn tell_idle(&self, frames: &Frameset, progress: &Progress) {
+    /// Whether strokes hold to those of the frame before.
+    fn holds(&self) -> bool {
+        self.args.film.hold == Switch::On
+    }
+
+    /// Warns of options that have no effect in the frames of the film, drawn in a style.
+    fn tell_idle(&self, frames: &Frameset, style: &Style, progress: &Progress) {
         let is_timed = matches!(self.format, Format::Whole(_)) || frames.playing.is_some();
-        let notices = idle::of_animate(self.args, self.lines.is_some(), is_timed);
+        let notices = idle::of_animate(self.args, self.lines.is_some(), style, is_timed);
         let of_pose = frames.playing.iter().flat_map(Playing::warnings);
         progress.suspend(|| {
             message::warn_all(self.args.drawing.quiet, of_pose);
@@ -349,7 +355,7 @@ fn draw_frames(
 
     // Prepare it, and place the camera.
     let staged = render::prepare(&job, loaded, frames.held(&args.drawing), progress)?;
-    film.tell_idle(&frames, progress);
+    film.tell_idle(&frames, &job.look.style, progress);
     let smoke = staged.smoke.as_ref();
     let way = film.way(&frames, (&staged.scene, smoke), &staged.seen()?)?;
     let options = RendererOptions {
@@ -368,17 +374,30 @@ fn draw_frames(
     let drawn = screened(reel, args.drawing.quiet, progress, |screening, progress| {
         let pictures = |engine: &dyn Engine| {
             let mut renderer = staged.renderer(engine, (&job.look.style, &options))?;
+            let holds = film.holds() && renderer.has_strokes();
+            if holds {
+                renderer.hold_strokes();
+            }
             let Some(playing) = &frames.playing else {
-                let cameras = frames.numbers.iter().map(|number| way.still(*number));
-                return screening.show_all(renderer, cameras.map(Shot::from));
+                let shots = steps(&frames.numbers, 0, holds).map(|step| Shot {
+                    passed: step.passed,
+                    ..Shot::from(way.still(step.number))
+                });
+                return screening.show_all(renderer, shots, holds);
             };
             let mut scene = staged.scene.clone();
-            screening.show_each(&frames.numbers, |number| {
+            let steps = steps(&frames.numbers, screening.done(), holds);
+            screening.show_each(steps, |Step { number, passed }| {
                 let warning = playing.pose(&mut scene, number);
                 renderer.set_pose(&scene)?;
-                let mut take = Take::from(renderer.draw(&way.at(number, &scene)?)?);
+                let camera = way.at(number, &scene)?;
+                if passed {
+                    renderer.pass(&camera)?;
+                    return Ok(None);
+                }
+                let mut take = Take::from(renderer.draw(&camera)?);
                 take.notices.extend(warning);
-                Ok(take)
+                Ok(Some(take))
             })
         };
         engine.draw_as_step(&pictures, progress)
@@ -408,7 +427,7 @@ fn draw_lines(
 
     // Prepare it, and place the camera.
     let prepared = lines::prepare(&job, loaded, frames.held(&args.drawing), progress)?;
-    film.tell_idle(&frames, progress);
+    film.tell_idle(&frames, &job.look.style, progress);
     let smoke = prepared.smoke.as_ref();
     let way = film.way(&frames, (&prepared.scene, smoke), &prepared.lines)?;
 
@@ -418,21 +437,29 @@ fn draw_lines(
     let drawn = screened(reel, args.drawing.quiet, progress, |screening, progress| {
         let drawings = |engine: &dyn Engine| {
             let mut renderer = prepared.renderer(engine, &job);
+            if film.holds() {
+                renderer.hold_strokes();
+            }
             let mut scene = prepared.scene.clone();
-            screening.show_each(&frames.numbers, |number| {
+            let steps = steps(&frames.numbers, screening.done(), film.holds());
+            screening.show_each(steps, |Step { number, passed }| {
                 let mut notices = Vec::new();
                 if let Some(playing) = &frames.playing {
                     notices.extend(playing.pose(&mut scene, number));
                     renderer.set_pose(&scene)?;
                 }
                 let camera = way.at(number, &scene)?;
+                if passed {
+                    renderer.pass(&camera, &job.look.style, &job.options)?;
+                    return Ok(None);
+                }
                 let mut drawing = renderer.draw(&camera, &job.look.style, &job.options)?;
                 notices.append(&mut drawing.notices);
-                Ok(Take {
+                Ok(Some(Take {
                     shown: prepared.shown(&job, &drawing, &camera)?,
                     notices,
                     times: renderer.times().to_vec(),
-                })
+                }))
             })
         };
         engine.draw_as_step(&drawings, progress)

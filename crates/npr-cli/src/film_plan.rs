@@ -76,6 +76,7 @@ impl FilmPlan {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::arguments::Switch;
 
     fn args() -> FilmArguments {
         FilmArguments {
@@ -84,6 +85,7 @@ mod tests {
             fps: 24.0,
             turntable: true,
             orbit: None,
+            hold: Switch::On,
             resume: false,
         }
     }

@@ -7,7 +7,7 @@ use crate::arguments::{
 use crate::line_job::LineJob;
 use crate::volume::{DEFAULT_FPS, DEFAULT_STEP, Order, VolumeSource};
 use npr_render::LineSource;
-use npr_stylesheet::{Facts, SmokeParticles};
+use npr_stylesheet::{Facts, SmokeParticles, Style};
 use npr_trace::TraceOptions;
 
 /// An option, and a condition under which it has no effect.
@@ -214,6 +214,8 @@ struct Animate<'a> {
     args: &'a AnimateArguments,
     /// Whether frames are line drawings.
     draws_lines: bool,
+    /// Whether they are pictures with strokes.
+    has_strokes: bool,
     /// Whether a clip plays, or the film is one file, which says how fast it does.
     is_timed: bool,
 }
@@ -242,6 +244,12 @@ fn animate_entries<'a>() -> Vec<Entry<Animate<'a>>> {
             |c| c.args.film.frames.is_some() && !c.args.film.turntable,
             "--frames says what is drawn, and --orbit by how much the camera turns",
         ),
+        entry(
+            "--hold",
+            |c| c.args.film.hold == Switch::Off,
+            |c| !c.draws_lines && !c.has_strokes,
+            "no lines of this style are strokes (line.method)",
+        ),
         of_line_films("--kinds", |c| c.args.lines.kinds.is_some()),
         of_line_films("--crease", |c| c.args.lines.crease.is_some()),
         of_line_films("--crease-from", |c| c.args.lines.crease_from.is_some()),
@@ -258,12 +266,18 @@ fn animate_entries<'a>() -> Vec<Entry<Animate<'a>>> {
 }
 
 /// The warnings about options of `npr animate` that have no effect; see [`Animate`].
-pub fn of_animate(args: &AnimateArguments, draws_lines: bool, is_timed: bool) -> Vec<String> {
+pub fn of_animate(
+    args: &AnimateArguments,
+    draws_lines: bool,
+    style: &Style,
+    is_timed: bool,
+) -> Vec<String> {
     reported(
         &animate_entries(),
         &Animate {
             args,
             draws_lines,
+            has_strokes: style.has_curves(),
             is_timed,
         },
     )

@@ -37,6 +37,31 @@ impl From<Frame> for Take {
     }
 }
 
+/// A frame of a film on the way through it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Step {
+    /// Its number.
+    pub number: u32,
+    /// Whether its strokes are found, for those of later frames to hold to, and it is not drawn.
+    pub passed: bool,
+}
+
+/// The way through a film whose frames of these rising numbers are drawn, but for the first `done`: the others are
+/// passed where strokes hold from frame to frame, from frame 0 on, and left out elsewhere.
+pub fn steps(numbers: &[u32], done: usize, holds: bool) -> impl Iterator<Item = Step> {
+    let wanted = &numbers[done.min(numbers.len())..];
+    let first = match holds {
+        true => Some(0),
+        false => wanted.first().copied(),
+    };
+    let all = first.zip(wanted.last().copied());
+    let all = all.into_iter().flat_map(|(first, last)| first..=last);
+    all.filter_map(move |number| {
+        let passed = wanted.binary_search(&number).is_err();
+        (holds || !passed).then_some(Step { number, passed })
+    })
+}
+
 /// Why a frame could not be drawn.
 pub enum Unfit {
     /// A fault of the engine, or of what it was asked for: another engine may try.
@@ -78,14 +103,26 @@ impl Screening {
         self.done.get()
     }
 
-    /// Draws every frame that is not handed over yet, of a film that has one for each of `shots`. Ends early where one
-    /// cannot be written.
+    /// Draws every frame that is not handed over yet, of a film that has one for each of `shots` that is not passed.
+    /// Those that are handed over are left out, or passed where `holds`. Ends early where one cannot be written.
     pub fn show_all(
         &self,
         mut renderer: Renderer<'_>,
         shots: impl Iterator<Item = Shot>,
+        holds: bool,
     ) -> Result<(), RenderError> {
-        for frame in renderer.frames(shots.skip(self.done())) {
+        let mut done = self.done();
+        let left = shots.filter_map(move |shot| match done > 0 && !shot.passed {
+            true => {
+                done -= 1;
+                holds.then_some(Shot {
+                    passed: true,
+                    ..shot
+                })
+            }
+            false => Some(shot),
+        });
+        for frame in renderer.frames(left) {
             if !self.show(frame?.into()) {
                 break;
             }
@@ -93,15 +130,16 @@ impl Screening {
         Ok(())
     }
 
-    /// The same of frames that `draw` draws by their numbers, one after the other.
+    /// The same of frames that `draw` draws one after the other; of those that are passed it gives nothing.
     pub fn show_each(
         &self,
-        numbers: &[u32],
-        mut draw: impl FnMut(u32) -> Result<Take, Unfit>,
+        steps: impl Iterator<Item = Step>,
+        mut draw: impl FnMut(Step) -> Result<Option<Take>, Unfit>,
     ) -> Result<(), RenderError> {
-        for number in numbers.iter().skip(self.done()) {
-            let is_taken = match draw(*number) {
-                Ok(take) => self.show(take),
+        for step in steps {
+            let is_taken = match draw(step) {
+                Ok(Some(take)) => self.show(take),
+                Ok(None) => true,
                 Err(Unfit::Engine(error)) => return Err(error),
                 Err(Unfit::Other(fault)) => {
                     *self.failed.borrow_mut() = Some(fault);
@@ -297,11 +335,12 @@ mod tests {
         let shots = smoke.iter().map(|smoke| Shot {
             camera,
             smoke: Some(smoke.clone()),
+            passed: false,
         });
         let drawn = screened(reel, true, &mut progress, |screening, _| {
             work(screening, &|engine| {
                 let renderer = prepared.renderer(engine, &style, &options)?;
-                screening.show_all(renderer, shots.clone())
+                screening.show_all(renderer, shots.clone(), false)
             });
             Ok(Drawn {
                 picture: (),
@@ -313,6 +352,25 @@ mod tests {
         (0..6)
             .map(|number| std::fs::read(path(number)).ok())
             .collect()
+    }
+
+    #[test]
+    fn what_is_not_drawn_is_passed_where_strokes_hold() {
+        let way = |done, holds| -> Vec<(u32, bool)> {
+            let all = steps(&[2, 3, 5], done, holds);
+            all.map(|step| (step.number, step.passed)).collect()
+        };
+        assert_eq!(way(0, false), [(2, false), (3, false), (5, false)]);
+        assert_eq!(way(2, false), [(5, false)]);
+        let passed = |from, to| (from..to).map(|number| (number, true));
+        let first = passed(0, 2).chain([(2, false), (3, false), (4, true), (5, false)]);
+        assert!(way(0, true).into_iter().eq(first));
+        assert!(
+            way(2, true)
+                .into_iter()
+                .eq(passed(0, 5).chain([(5, false)]))
+        );
+        assert_eq!((way(3, true), way(3, false)), (Vec::new(), Vec::new()));
     }
 
     #[test]

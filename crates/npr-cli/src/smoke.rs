@@ -231,13 +231,14 @@ fn draw_film(
     let shots = film.frames.iter().map(|smoke| Shot {
         camera: *camera,
         smoke: Some(smoke.clone()),
+        passed: false,
     });
     let quiet = job.args.drawing.quiet;
     screened(reel, quiet, progress, |screening, progress| {
         // An engine that takes over continues where the other one failed.
         let pictures = |engine: &dyn Engine| {
             let renderer = prepared.renderer(engine, &job.look.style, &options)?;
-            screening.show_all(renderer, shots.clone())
+            screening.show_all(renderer, shots.clone(), false)
         };
         engine.draw_as_step(&pictures, progress)
     })

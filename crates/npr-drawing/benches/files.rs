@@ -28,7 +28,7 @@ fn stroke(id: u64, length: usize) -> Stroke {
             width: 2.0 + f64::from(npr_core::math::cos(t * 0.05)),
             u: f64::from(t),
             world: [t, bend, 0.0],
-            color: None,
+            ..StrokePoint::default()
         }
     });
     Stroke {

@@ -168,6 +168,7 @@ pub(crate) fn point_between(a: &StrokePoint, b: &StrokePoint, t: f64) -> StrokeP
         width: mix(a.width, b.width),
         u: mix(a.u, b.u),
         world: std::array::from_fn(|i| mix(a.world[i].into(), b.world[i].into()) as f32),
+        location: a.location,
         color: between(a.color, b.color, t),
     }
 }

@@ -308,6 +308,7 @@ fn stroke_of(stroke: FileStroke, names: &mut Names) -> Stroke {
                 u: *u,
                 world: *world,
                 color: color_of(i),
+                ..StrokePoint::default()
             })
             .collect(),
     }
@@ -364,6 +365,7 @@ mod tests {
                                 u,
                                 world,
                                 color: colored.then_some(color),
+                                ..StrokePoint::default()
                             })
                             .collect(),
                     },
@@ -407,7 +409,7 @@ mod tests {
             width: v,
             u: v,
             world: [v as f32; 3],
-            color: None,
+            ..StrokePoint::default()
         };
         let stroke = |points: Vec<StrokePoint>| Stroke {
             id: 1,

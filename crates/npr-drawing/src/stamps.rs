@@ -13,6 +13,9 @@ const LEAST_SPACING_PX: f64 = 0.25;
 /// Most stamps of one part of a stroke: beyond them they lie farther apart.
 const STAMPS_MAX: f64 = 1e5;
 
+/// Most pixels of texture on a pixel of a stroke that stamps are set on: more of it is a seam between two textures.
+const SQUEEZED_MOST: f64 = 4.0;
+
 /// How stamps lie along strokes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stamps {
@@ -47,8 +50,8 @@ impl Stamps {
     /// The stamps of a part of a stroke, two points each; `inked` gives what a point of the stroke has beside its
     /// place.
     ///
-    /// They lie at multiples of the spacing in `u`, so those of one stroke hold still while its start moves. Chance
-    /// hangs on the stroke's id and the number of the stamp.
+    /// They lie at multiples of the spacing in `u`, so those of one stroke hold still while its start moves, and none
+    /// lies in a seam between two textures. Chance hangs on the stroke's id and the number of the stamp.
     pub(crate) fn along(
         &self,
         points: &[StrokePoint],
@@ -56,34 +59,41 @@ impl Stamps {
         id: u64,
         inked: &dyn Fn(&StrokePoint) -> InkPoint,
     ) -> Vec<InkPoint> {
-        // Know how long it is, and how far apart they lie.
-        let back = points.first().copied().filter(|_| is_closed);
-        let ends: Vec<&StrokePoint> = points.iter().chain(&back).collect();
-        let pieces = ends.windows(2).map(|pair| (pair[0], pair[1]));
-        let length: f64 = pieces
-            .clone()
-            .map(|(a, b)| distance(a.position, b.position))
-            .sum();
-        let (Some(first), true) = (points.first(), length.is_finite()) else {
+        // Know where the texture of each piece begins and ends; where it is squeezed together, there is none.
+        let Some(first) = points.first() else {
             return Vec::new();
         };
-        let spacing = self.spacing_over(length);
-        let start = if first.u.abs() < 1e9 { first.u } else { 0.0 };
-
-        // Set one at every multiple.
-        let mut stamps = Vec::new();
-        let mut way = start;
-        let mut number = (start / spacing).ceil();
-        for (a, b) in pieces {
+        let back = Some(first).filter(|_| is_closed);
+        let ends: Vec<&StrokePoint> = points.iter().chain(back).collect();
+        let start = if first.u.abs() < 1e9 { 0.0 } else { first.u };
+        let pieces = ends.windows(2).enumerate().filter_map(|(index, pair)| {
+            let (a, b) = (pair[0], pair[1]);
             let piece = distance(a.position, b.position);
+            let is_back = index + 1 == points.len();
+            let [from, to] = [a.u, if is_back { a.u + piece } else { b.u }].map(|u| u - start);
+            let is_even = (to - from).abs() <= SQUEEZED_MOST * piece && piece.is_finite();
+            is_even.then_some((a, b, piece, [from, to]))
+        });
+        let length: f64 = pieces
+            .clone()
+            .map(|(.., [from, to])| (to - from).abs())
+            .sum();
+        let spacing = self.spacing_over(length);
+
+        // Set one at every multiple, whichever way it runs.
+        let mut stamps = Vec::new();
+        for (a, b, piece, [from, to]) in pieces {
             let forward = [0, 1].map(|i| (b.position[i] - a.position[i]) / piece);
-            while number * spacing < way + piece {
-                let share = ((number * spacing - way) / piece).clamp(0.0, 1.0);
+            let (mut number, step) = match to >= from {
+                true => ((from / spacing).ceil(), 1.0),
+                false => ((from / spacing).floor(), -1.0),
+            };
+            while (to - number * spacing) * step > 0.0 {
+                let share = ((number * spacing - from) / (to - from)).clamp(0.0, 1.0);
                 let point = inked(&point_between(a, b, share));
                 stamps.extend(self.stamp(point, forward, Seed::new(id, number as i64 as u32)));
-                number += 1.0;
+                number += step;
             }
-            way += piece;
         }
         stamps
     }

@@ -17,7 +17,7 @@ fn point([x, y]: [f64; 2], width: f64) -> StrokePoint {
         width,
         u: 0.0,
         world: [x as f32, y as f32, 0.0],
-        color: None,
+        ..StrokePoint::default()
     }
 }
 

@@ -75,7 +75,8 @@ pub use frame::Frame;
 pub use id_map::apply_id_maps;
 pub use layer_pixel::LayerPixel;
 pub use lines::{
-    KindSet, LineModel, LineModelOptions, LineOptions, LineRenderer, LineSource, PaintedLines,
+    HeldLines, KindSet, LineModel, LineModelOptions, LineOptions, LineRenderer, LineSource,
+    PaintedLines,
 };
 pub use model::Model;
 pub use npr_core::smoke::Sphere;

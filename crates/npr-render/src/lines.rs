@@ -4,6 +4,7 @@ mod assembly;
 mod cards;
 mod colors;
 mod expression;
+mod film;
 mod finder;
 mod image;
 mod model;
@@ -22,6 +23,7 @@ mod welded;
 mod widths;
 
 pub(crate) use expression::Expression;
+pub use film::HeldLines;
 pub use model::LineModel;
 pub use npr_core::line_kind::KindSet;
 pub use npr_core::line_source::LineSource;

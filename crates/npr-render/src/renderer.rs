@@ -269,6 +269,37 @@ impl<'a> Renderer<'a> {
         }
     }
 
+    /// Draws frames of a film from now on: strokes hold to those of the frame before, in both looks of a blend, as
+    /// [`LineModel::draw_held`](crate::LineModel::draw_held) says. The next frame is the first.
+    pub fn hold_strokes(&mut self) {
+        if let Some(lines) = &mut self.lines {
+            lines.hold_strokes();
+        }
+        if let Some((other, _)) = &mut self.blended {
+            other.hold_strokes();
+        }
+    }
+
+    /// Whether frames have strokes, which can hold to those of the frame before.
+    pub fn has_strokes(&self) -> bool {
+        let of_other = (self.blended.as_ref()).is_some_and(|(other, _)| other.has_strokes());
+        of_other || self.lines.is_some() && self.frames.plan.style.has_curves()
+    }
+
+    /// Finds the strokes that a camera sees, for those of the next frame to hold to, and draws nothing: what comes
+    /// before a part of a film.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Self::draw`] that have to do with lines.
+    pub fn pass(&mut self, camera: &Camera) -> Result<(), RenderError> {
+        self.find_strokes(camera)?;
+        match &mut self.blended {
+            Some((other, _)) => other.pass(camera),
+            None => Ok(()),
+        }
+    }
+
     /// Plans and prepares the frame for the model as it stands.
     fn plan_anew(&mut self) -> Result<(), RenderError> {
         let FramePlan {

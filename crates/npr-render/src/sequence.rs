@@ -14,6 +14,8 @@ pub struct Shot {
     pub camera: Camera,
     /// The smoke from this frame on, as [`Renderer::set_smoke`] takes it; `None` goes on with the one before.
     pub smoke: Option<Smoke>,
+    /// Whether it is passed over: its strokes are found, for those of the next shot to hold to, and it gives no frame.
+    pub passed: bool,
 }
 
 impl From<Camera> for Shot {
@@ -21,12 +23,13 @@ impl From<Camera> for Shot {
         Self {
             camera,
             smoke: None,
+            passed: false,
         }
     }
 }
 
 impl<'a> Renderer<'a> {
-    /// Draws a sequence, a frame for every shot, in their order: the same frames as [`Self::set_smoke`] and
+    /// Draws a sequence, a frame for every shot that is not passed, in their order: the same frames as [`Self::set_smoke`] and
     /// [`Self::draw`] give one after the other.
     ///
     /// A device works on a frame while the caller does something with the one before: two frames are under way at
@@ -68,12 +71,15 @@ impl<'a> Renderer<'a> {
         Frames::new(self, shots.into_iter())
     }
 
-    /// Starts to draw a shot.
-    fn begin_shot(&mut self, shot: &Shot) -> Result<Begun, RenderError> {
+    /// Starts to draw a shot, or passes it over.
+    fn begin_shot(&mut self, shot: &Shot) -> Result<Option<Begun>, RenderError> {
         if let Some(smoke) = &shot.smoke {
             self.set_smoke(smoke)?;
         }
-        self.begin(&shot.camera)
+        match shot.passed {
+            true => self.pass(&shot.camera).map(|()| None),
+            false => self.begin(&shot.camera).map(Some),
+        }
     }
 }
 
@@ -108,7 +114,7 @@ where
             let shot = self.shots.as_mut().and_then(Iterator::next);
             let begun = shot.map(|shot| self.renderer.begin_shot(&shot.into()));
             match begun {
-                Some(Ok(begun)) => self.begun.push_back(begun),
+                Some(Ok(begun)) => self.begun.extend(begun),
                 ended => {
                     self.shots = None;
                     self.failure = ended.and_then(Result::err).or(self.failure.take());

@@ -9,6 +9,7 @@
 //! | [`pixel_strokes`] | strokes of the pixels that lines cover | [Jiang et al. 2022] |
 //! | [`image_lines`] | borders between surfaces in a picture, and lines painted in textures | |
 //! | [`sampled`] | what is seen of lines, by samples, and the ink of it | [Cole & Finkelstein 2010] |
+//! | [`hold`] | what strokes take over from the frame before | [Kalnins et al. 2003] |
 //! | [`rank`] | list ranking, which orders the nodes of lines in parallel | [Wyllie 1979] |
 //! | [`stroke_ink`] | strokes in the pixels of a frame, drawn with a [`brush`] | |
 //!
@@ -22,6 +23,7 @@
 //! ```
 
 pub mod brush;
+pub mod hold;
 pub mod image_lines;
 pub mod ink_point;
 pub mod mesh_lines;

@@ -19,7 +19,7 @@ pub mod intersect;
 mod line;
 mod line_settings;
 mod merge;
-mod near;
+pub(crate) mod near;
 mod overshoot;
 pub mod polyline;
 pub mod puff;

@@ -55,6 +55,11 @@ impl Projector {
         self.perspective
     }
 
+    /// The direction in which it looks, of length 1.
+    pub fn forward(&self) -> DVec3 {
+        self.forward
+    }
+
     /// Distance of the near plane along the view axis; what is nearer is not drawn.
     pub fn near(&self) -> f64 {
         self.near

@@ -2,6 +2,8 @@
 
 pub use npr_core::line_kind::Kind;
 
+use crate::surface_location::SurfaceLocation;
+
 /// One point of a stroke.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct StrokePoint {
@@ -15,6 +17,8 @@ pub struct StrokePoint {
     pub u: f64,
     /// Place in the world.
     pub world: [f32; 3],
+    /// What of the shape it lies on: the edge or face that its line has here, before any smoothing.
+    pub location: SurfaceLocation,
     /// Colour of the line here, sRGB bytes and alpha, where it is more than that of its surface.
     pub color: Option<[u8; 4]>,
 }

@@ -13,10 +13,27 @@ pub struct SurfaceLocation {
     pub face: u32,
 }
 
+impl Default for SurfaceLocation {
+    fn default() -> Self {
+        Self::NOWHERE
+    }
+}
+
 impl SurfaceLocation {
+    /// That of lines which lie on no shape.
+    pub const NOWHERE: Self = Self {
+        edge: NONE,
+        face: NONE,
+    };
+
     /// Along an edge.
     pub fn along(edge: u32) -> Self {
         Self { edge, face: NONE }
+    }
+
+    /// Whether it is that of a line which lies on no shape.
+    pub fn is_nowhere(&self) -> bool {
+        *self == Self::NOWHERE
     }
 
     /// The face that the piece crosses, if it does not run along an edge.
@@ -29,14 +46,25 @@ impl SurfaceLocation {
     ///
     /// Shares lie in 0..1 and have the sum 1. Along an edge the third counts nothing.
     pub fn place(&self, shape: &HalfEdgeMesh, world: DVec3) -> ([u32; 3], [f64; 3]) {
-        if let Some(face) = self.crossed_face() {
-            let vertices = shape.faces[face as usize];
-            let corners = vertices.map(|vertex| shape.point(vertex));
+        let vertices = self.vertices(shape);
+        let corners = vertices.map(|vertex| shape.point(vertex));
+        if self.crossed_face().is_some() {
             return (vertices, shares_in_face(corners, world));
         }
-        let [low, high] = shape.ends(self.edge);
-        let t = share_along([low, high].map(|vertex| shape.point(vertex)), world);
-        ([low, high, high], [1.0 - t, t, 0.0])
+        let t = share_along([corners[0], corners[1]], world);
+        (vertices, [1.0 - t, t, 0.0])
+    }
+
+    /// The vertices that [`Self::place`] measures places by: the corners of the face, or the ends of the edge, of
+    /// which the second comes twice.
+    pub fn vertices(&self, shape: &HalfEdgeMesh) -> [u32; 3] {
+        match self.crossed_face() {
+            Some(face) => shape.faces[face as usize],
+            None => {
+                let [low, high] = shape.ends(self.edge);
+                [low, high, high]
+            }
+        }
     }
 }
 

@@ -8,10 +8,11 @@ use crate::Outcome;
 
 /// How the program is called.
 const USAGE: &str = "\
-usage: motion [--models DIR] [--only NAME] [--quick] [--pictures DIR]
+usage: motion [--models DIR] [--only NAME] [--rows raw|held] [--quick] [--pictures DIR]
 
   --models DIR    folder of the shared models
   --only NAME     only models, or sequences, whose name holds NAME; may be given twice
+  --rows ROWS     only raw strokes, or only those that hold from frame to frame
   --quick         twelve frames of each sequence at most
   --pictures DIR  writes an SVG for the largest event of every cause: a frame, the next, and its raw lines";
 
@@ -22,6 +23,8 @@ pub struct Arguments {
     pub models: PathBuf,
     /// Parts of the names to measure.
     only: Vec<String>,
+    /// The rows that are asked for: with strokes that hold, and without; all where nothing is said.
+    held: Option<bool>,
     /// Most frames of a sequence.
     pub frames_most: usize,
     /// Folder for pictures of causes.
@@ -34,6 +37,11 @@ impl Arguments {
         let holds = |part: &String| model.contains(part.as_str()) || film.contains(part.as_str());
         self.only.iter().all(holds)
     }
+
+    /// Whether rows are asked for whose strokes hold, or do not.
+    pub fn takes_rows(&self, is_held: bool) -> bool {
+        self.held.is_none_or(|held| held == is_held)
+    }
 }
 
 /// Reads the arguments.
@@ -45,6 +53,7 @@ pub fn parse(words: impl Iterator<Item = String>) -> Outcome<Arguments> {
     let mut arguments = Arguments {
         models: shared_models(),
         only: Vec::new(),
+        held: None,
         frames_most: usize::MAX,
         pictures: None,
     };
@@ -54,6 +63,13 @@ pub fn parse(words: impl Iterator<Item = String>) -> Outcome<Arguments> {
         match word.as_str() {
             "--models" => arguments.models = value()?.into(),
             "--only" => arguments.only.push(value()?),
+            "--rows" => {
+                arguments.held = match value()?.as_str() {
+                    "raw" => Some(false),
+                    "held" => Some(true),
+                    _ => return Err(USAGE.into()),
+                }
+            }
             "--quick" => arguments.frames_most = 12,
             "--pictures" => arguments.pictures = Some(value()?.into()),
             _ => return Err(USAGE.into()),

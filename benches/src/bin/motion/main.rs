@@ -49,7 +49,11 @@ fn main() -> Outcome<()> {
             eprintln!("{} {}", subject.name, film.name());
             let frames = subject.frame_count(film).min(arguments.frames_most);
             let pictures = arguments.pictures.as_deref();
-            rows.push(measured(&mut subject, film, frames, pictures)?);
+            for is_held in [false, true] {
+                if arguments.takes_rows(is_held) {
+                    rows.push(measured(&mut subject, (film, is_held), frames, pictures)?);
+                }
+            }
         }
     }
 

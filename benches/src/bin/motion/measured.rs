@@ -9,6 +9,7 @@ use npr_benches::motion::skin::Skin;
 use npr_benches::motion::step::Step;
 use npr_benches::motion::tally::{Due, Pair, Tally};
 use npr_benches::motion::traced::Sample;
+use npr_render::HeldLines;
 
 use crate::Outcome;
 use crate::picture::panels;
@@ -20,31 +21,45 @@ pub struct Measured {
     pub model: String,
     /// The sequence.
     pub film: Film,
+    /// Whether strokes hold from frame to frame.
+    pub is_held: bool,
     /// The figures.
     pub tally: Tally,
     /// Why.
     pub causes: Causes,
 }
 
-/// Draws and measures a sequence; pictures of causes go to a folder where there is one.
+impl Measured {
+    /// What its row is called.
+    pub fn name(&self) -> String {
+        match self.is_held {
+            true => format!("{}, held", self.model),
+            false => self.model.clone(),
+        }
+    }
+}
+
+/// Draws and measures a sequence, whose strokes may hold from frame to frame; pictures of causes go to a folder where
+/// there is one.
 ///
 /// # Errors
 ///
 /// Whatever drawing, and writing of pictures, say.
 pub fn measured(
     subject: &mut Subject,
-    film: Film,
+    (film, is_held): (Film, bool),
     frame_count: usize,
     pictures: Option<&Path>,
 ) -> Outcome<Measured> {
     let (mut tally, mut causes) = (Tally::default(), Causes::default());
     let mut shown: BTreeMap<String, String> = BTreeMap::new();
-    let mut last = subject.shot(film, 0, None)?;
+    let mut held = is_held.then(HeldLines::default);
+    let mut last = subject.shot((film, 0), None, held.as_mut())?;
     let mut earlier: Option<Pair> = None;
     tally.add_bias(&last.stages.drawn, &last.stages.raw);
     for frame in 1..frame_count {
         // Draw the next frame, and the ways there and back.
-        let next = subject.shot(film, frame, Some(&last))?;
+        let next = subject.shot((film, frame), Some(&last), held.as_mut())?;
         let skins = (film == Film::Clip).then(|| [(&last, &next), (&next, &last)].map(skin));
         let [skin, skin_back] = match &skins {
             Some([there, back]) => [Some(there), Some(back)],
@@ -94,8 +109,9 @@ pub fn measured(
     for (name, svg) in shown {
         let folder = pictures.unwrap_or(Path::new("."));
         let name = format!(
-            "{}_{}_{name}.svg",
+            "{}_{}{}_{name}.svg",
             subject.name,
+            if is_held { "held_" } else { "" },
             film.name().replace(' ', "_")
         );
         write_picture(&folder.join(name), &svg)?;
@@ -103,6 +119,7 @@ pub fn measured(
     Ok(Measured {
         model: subject.name.clone(),
         film,
+        is_held,
         tally,
         causes,
     })

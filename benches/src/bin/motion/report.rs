@@ -132,7 +132,8 @@ pub fn sequences(rows: &[Measured]) {
             "jitter, px",
             "bias, px",
         ]);
-        for Measured { model, tally, .. } in &rows {
+        for row in &rows {
+            let tally = &row.tally;
             let [mean, deviation] = tally.stroke_counts();
             let percent = |share: f64| format!("{:.2}", 100.0 * share);
             let cells = [
@@ -150,11 +151,19 @@ pub fn sequences(rows: &[Measured]) {
                 format!("{:.3}", tally.jitter()),
                 format!("{:+.3}", tally.mean_bias()),
             ];
-            table.add(model, cells);
+            table.add(&row.name(), cells);
         }
         println!("{table}");
-        if film != Film::Still {
-            println!("{}", kinds(&rows));
+        for is_held in [false, true] {
+            let rows: Vec<&Measured> = rows
+                .iter()
+                .copied()
+                .filter(|row| row.is_held == is_held)
+                .collect();
+            if film != Film::Still && !rows.is_empty() {
+                let (name, kinds) = (if is_held { "kind, held" } else { "kind" }, kinds(&rows));
+                println!("{}", kinds.to_string().replacen("kind", name, 1));
+            }
         }
         if film == Film::Still {
             let still = rows.iter().filter(|row| row.tally.is_still()).count();
@@ -190,8 +199,10 @@ fn kinds(rows: &[&Measured]) -> Table {
 pub fn verdict(rows: &[Measured]) {
     println!("## Bars\n");
     let mut table = Table::new(["figure", "sequences", "at most", "worst", "of", "met by"]);
-    for bar in &BARS {
-        let judged = rows.iter().filter(|row| bar.films.contains(&row.film));
+    for (bar, is_held) in BARS.iter().flat_map(|bar| [(bar, false), (bar, true)]) {
+        let judged = rows
+            .iter()
+            .filter(|row| row.is_held == is_held && bar.films.contains(&row.film));
         let judged: Vec<(f64, &Measured)> =
             judged.map(|row| ((bar.value)(&row.tally), row)).collect();
         let Some((value, worst)) = judged.iter().max_by(|a, b| a.0.total_cmp(&b.0)) else {
@@ -209,7 +220,8 @@ pub fn verdict(rows: &[Measured]) {
             format!("{}, {}", worst.model, worst.film.name()),
             format!("{met} of {}", judged.len()),
         ];
-        table.add(bar.name, cells);
+        let name = format!("{}{}", bar.name, if is_held { ", held" } else { "" });
+        table.add(&name, cells);
     }
     println!("{table}");
 }
@@ -225,9 +237,18 @@ pub fn causes(rows: &[Measured]) {
          the later frame, and place in pixels. Pops after a vote are those that stay where strokes take over their \
          textures as a whole: of the lesser ones of those that are joined.\n"
     );
-    for film in Film::ALL.into_iter().filter(|film| *film != Film::Still) {
-        let rows: Vec<&Measured> = rows.iter().filter(|row| row.film == film).collect();
-        println!("### {}\n", film.name());
+    let films = Film::ALL.into_iter().filter(|film| *film != Film::Still);
+    for (film, is_held) in films.flat_map(|film| [(film, false), (film, true)]) {
+        let is_asked = |row: &&Measured| row.film == film && row.is_held == is_held;
+        let rows: Vec<&Measured> = rows.iter().filter(is_asked).collect();
+        if rows.is_empty() {
+            continue;
+        }
+        println!(
+            "### {}{}\n",
+            film.name(),
+            if is_held { ", held" } else { "" }
+        );
         let matches = |row: &Measured| row.tally.slides.len();
         table(
             "pops",

@@ -10,7 +10,7 @@ use npr_benches::motion::film::Film;
 use npr_benches::motion::traced::{Sample, Traced};
 use npr_benches::solid::bumpy_ball;
 use npr_core::camera::Camera;
-use npr_render::{LineModel, LineModelOptions, LineOptions};
+use npr_render::{HeldLines, LineModel, LineModelOptions, LineOptions};
 use npr_scene::{Clip, LoadOptions, Pose, Scene, load};
 use npr_stylesheet::Style;
 use npr_vector::mesh_lines::bvh::{FaceTree, Sight};
@@ -148,12 +148,18 @@ impl Subject {
         film.frame_count(duration_s)
     }
 
-    /// Draws a frame of a sequence; what does not bend is taken over from the frame before.
+    /// Draws a frame of a sequence; what does not bend is taken over from the frame before. With `held` the strokes hold
+    /// to those of that frame.
     ///
     /// # Errors
     ///
     /// Whatever posing and drawing say.
-    pub fn shot(&mut self, film: Film, frame: usize, before: Option<&Shot>) -> Outcome<Shot> {
+    pub fn shot(
+        &mut self,
+        (film, frame): (Film, usize),
+        before: Option<&Shot>,
+        held: Option<&mut HeldLines>,
+    ) -> Outcome<Shot> {
         // Pose the model; other sequences show it at rest.
         if let Some(clip) = self
             .clip
@@ -187,9 +193,9 @@ impl Subject {
         let projector = Projector::new(&camera, SIZE, bounds);
         let [style, with_stubs] = &self.styles;
         let stages = Stages {
-            raw: self.drawn(&camera, style, false, &projector)?,
-            with_stubs: self.drawn(&camera, with_stubs, true, &projector)?,
-            drawn: self.drawn(&camera, style, true, &projector)?,
+            raw: self.drawn(&camera, style, false, &projector, None)?,
+            with_stubs: self.drawn(&camera, with_stubs, true, &projector, None)?,
+            drawn: self.drawn(&camera, style, true, &projector, held)?,
         };
         Ok(Shot {
             view: Viewpoint::new(&camera, SIZE),
@@ -207,12 +213,16 @@ impl Subject {
         style: &Style,
         smooth: bool,
         projector: &Projector,
+        held: Option<&mut HeldLines>,
     ) -> Outcome<Traced> {
         let options = LineOptions {
             smooth,
             ..LineOptions::of_style(style, SIZE)
         };
-        let drawing = self.lines.draw(camera, style, &options)?;
+        let drawing = match held {
+            Some(held) => self.lines.draw_held(camera, style, &options, held)?,
+            None => self.lines.draw(camera, style, &options)?,
+        };
         Ok(Traced::new(&drawing.strokes, SIZE, projector.lens()))
     }
 }

@@ -1,7 +1,7 @@
 //! The arguments of `npr animate`.
 
 use super::frames::frame_rate;
-use super::{CacheArguments, DrawingArguments, Frames, LineArguments, SheetArguments};
+use super::{CacheArguments, DrawingArguments, Frames, LineArguments, SheetArguments, Switch};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -61,6 +61,10 @@ pub struct FilmArguments {
         conflicts_with = "turntable"
     )]
     pub orbit: Option<f64>,
+    /// Whether strokes hold to those of the frame before: their textures, dashes, ids and order stay. For a part of a
+    /// film the strokes of all frames before it are found too; frames without strokes are not concerned.
+    #[arg(long, value_enum, default_value_t)]
+    pub hold: Switch,
     /// Skip frames whose files there are already, such as those of a run that was interrupted.
     #[arg(long)]
     pub resume: bool,

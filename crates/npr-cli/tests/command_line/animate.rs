@@ -521,7 +521,7 @@ fn a_frame_of_a_clip_is_the_picture_at_its_time() {
             let common = format!("{view} --backend {backend} {more} --clip {clip}");
             place
                 .npr(&words(&format!(
-                    "animate wing.glb {common} --fps 4 -o f_#.{ending}"
+                    "animate wing.glb {common} --fps 4 --hold off -o f_#.{ending}"
                 )))
                 .assert_silent_success();
             assert_eq!(place.names().len(), 9, "two seconds are eight frames");

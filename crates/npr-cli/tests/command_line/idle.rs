@@ -407,6 +407,18 @@ const ORBIT: &[&str] = &[
     "-o",
     "a.png",
 ];
+const SHAPES: &[&str] = &[
+    "animate",
+    "scene.obj",
+    "--orbit",
+    "40",
+    "--frames",
+    "2",
+    "--set",
+    "line.method=shape",
+    "-o",
+    "a.png",
+];
 const LINES: &[&str] = &[
     "animate",
     "scene.obj",
@@ -516,6 +528,11 @@ const ANIMATIONS: &[Case] = &[
     (LINES, &["--page", "A4"], Acts),
     (LINES, &["--weld", "0.1"], Acts),
     (LINES, &["--painted"], Told("--painted is ignored: ")),
+    (
+        SHAPES,
+        &["--hold", "off"],
+        Told("--hold is ignored: no lines of this style are strokes (line.method)"),
+    ),
     (ORBIT, &["--kinds", "contour"], Told(OF_LINES)),
     (ORBIT, &["--crease", "100"], Told(OF_LINES)),
     (ORBIT, &["--crease-from", "faces"], Told(OF_LINES)),

@@ -175,7 +175,7 @@ mod tests {
             width: 6.0,
             u: 0.0,
             world: [0.0; 3],
-            color: None,
+            ..StrokePoint::default()
         }
     }
 

@@ -3,6 +3,7 @@
 use super::assembly::Assembly;
 use super::colors::{ColorInput, StrokeColors};
 use super::expression::{Expression, curve_of};
+use super::film::HeldLines;
 use super::finder::{Finder, OnProcessor};
 use super::options::{LineModelOptions, LineOptions};
 use super::paint::Paint;
@@ -231,21 +232,40 @@ impl LineModel {
         style: &Style,
         options: &LineOptions,
     ) -> Result<Drawing, RenderError> {
-        self.draw_before(camera, style, options, None)
+        self.draw_next(camera, style, options, None)
     }
 
-    /// As [`LineModel::draw`], with a picture of what lies behind the lines.
-    fn draw_before(
+    /// As [`LineModel::draw`], for the next frame of a film: strokes run the way that they ran, have the ids and the
+    /// texture coordinates that they had, and come in the same order, as far as they were there in the frame before.
+    ///
+    /// `held` has that frame, and this one afterwards; the first frame is that of [`LineModel::draw`]. Frames depend on
+    /// all before them, so whoever draws a part of a film draws those before it, too.
+    ///
+    /// # Errors
+    ///
+    /// As [`LineModel::draw`].
+    pub fn draw_held(
         &self,
         camera: &Camera,
         style: &Style,
         options: &LineOptions,
-        behind: Option<&Frame>,
+        held: &mut HeldLines,
+    ) -> Result<Drawing, RenderError> {
+        self.draw_next(camera, style, options, Some(held))
+    }
+
+    /// As [`LineModel::draw`], after a frame that the lines hold to, if any.
+    fn draw_next(
+        &self,
+        camera: &Camera,
+        style: &Style,
+        options: &LineOptions,
+        held: Option<&mut HeldLines>,
     ) -> Result<Drawing, RenderError> {
         // Within the threads that share the work, so that each step does not wait for one of them to wake.
         rayon::scope(|_| {
             let find = &mut OnProcessor;
-            self.draw_with(camera, style, options, behind, find)
+            self.draw_with((camera, None), style, options, find, held)
         })
     }
 
@@ -292,14 +312,14 @@ impl LineModel {
         self.bounds = smoke::joined(self.smoke.as_ref(), bounds, self.points.is_empty());
     }
 
-    /// As [`LineModel::draw`], with lines that `find` finds, and a picture of what lies behind them.
+    /// As [`LineModel::draw`], with lines that `find` finds, a picture of what lies behind them, and the frame before.
     pub(super) fn draw_with(
         &self,
-        camera: &Camera,
+        (camera, behind): (&Camera, Option<&Frame>),
         style: &Style,
         options: &LineOptions,
-        behind: Option<&Frame>,
         find: &mut dyn Finder,
+        held: Option<&mut HeldLines>,
     ) -> Result<Drawing, RenderError> {
         let wanted = Wanted {
             camera,
@@ -310,7 +330,7 @@ impl LineModel {
             behind,
             is_open: false,
         };
-        self.draw_some(&wanted, find, |_| true)
+        self.draw_some(&wanted, (find, held), |_| true)
     }
 
     /// The lines of the parts whose style asks for curves that are found as `options` says; smoke hides none of them.
@@ -322,7 +342,7 @@ impl LineModel {
         style: &Style,
         (options, is_open): (&LineOptions, bool),
         pictures: &BTreeMap<String, Picture>,
-        find: &mut dyn Finder,
+        (find, held): (&mut dyn Finder, Option<&mut HeldLines>),
     ) -> Result<Drawing, RenderError> {
         let is_curve = |look: &Look<'_>| look.line_method.source() == Some(options.method);
         let folds_alone = LineOptions {
@@ -338,14 +358,14 @@ impl LineModel {
             behind: None,
             is_open,
         };
-        self.draw_some(&wanted, find, is_curve)
+        self.draw_some(&wanted, (find, held), is_curve)
     }
 
     /// The lines of the parts for whose look `has_lines` is true.
     fn draw_some(
         &self,
         wanted: &Wanted<'_>,
-        find: &mut dyn Finder,
+        (find, held): (&mut dyn Finder, Option<&mut HeldLines>),
         has_lines: impl Fn(&Look<'_>) -> bool,
     ) -> Result<Drawing, RenderError> {
         let Wanted {
@@ -414,6 +434,10 @@ impl LineModel {
             left_out,
         } = self.strokes(&prepared, &view, (style, options), &paint, find)?;
         paint.apply(&mut strokes);
+        if let Some(held) = held {
+            held.of(options.method)
+                .hold(&mut strokes, &self.shape, &projector);
+        }
         if let Some(stroke_contrast) = stroke_contrast {
             stroke_contrast.apply(&mut strokes, &|surface| paint.line_color(surface));
         }

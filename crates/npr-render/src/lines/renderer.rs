@@ -1,5 +1,6 @@
 //! A line model on an engine.
 
+use super::film::HeldLines;
 use super::finder::{Finder, OnDevice, OnProcessor};
 use super::model::LineModel;
 use super::options::LineOptions;
@@ -46,6 +47,8 @@ pub struct LineRenderer<'a> {
     pub(crate) behind: Option<Behind<'a>>,
     /// The passes of a device, or the plain functions for an engine that runs these in their place.
     finder: Box<dyn Finder + 'a>,
+    /// The frame before, where strokes hold to it.
+    held: Option<HeldLines>,
 }
 
 impl<'a> LineRenderer<'a> {
@@ -61,6 +64,7 @@ impl<'a> LineRenderer<'a> {
                 true => Box::new(OnProcessor),
                 false => Box::new(OnDevice::new(engine, shape)),
             },
+            held: None,
         }
     }
 
@@ -72,6 +76,30 @@ impl<'a> LineRenderer<'a> {
     /// The model that is drawn.
     pub(crate) fn model(&self) -> &LineModel {
         self.posed.as_deref().unwrap_or(self.given)
+    }
+
+    /// Draws frames of a film from now on, as [`LineModel::draw_held`] does: strokes hold to those of the frame before.
+    /// The next frame is the first.
+    pub fn hold_strokes(&mut self) {
+        self.held = Some(HeldLines::default());
+    }
+
+    /// Finds the lines that a camera sees, for those of the next frame to hold to, and gives none.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Self::draw`].
+    pub fn pass(
+        &mut self,
+        camera: &Camera,
+        style: &Style,
+        options: &LineOptions,
+    ) -> Result<(), RenderError> {
+        let options = LineOptions {
+            fill: false,
+            ..*options
+        };
+        self.draw(camera, style, &options).map(drop)
     }
 
     /// Draws the pose of a scene from now on, as [`LineModel::set_pose`] takes it; the model that was given stays as
@@ -114,7 +142,8 @@ impl<'a> LineRenderer<'a> {
         self.finder.start_view();
         let model = self.posed.as_deref().unwrap_or(self.given);
         let find = self.finder.as_mut();
-        model.draw_with(camera, style, options, behind.as_ref(), find)
+        let seen = (camera, behind.as_ref());
+        model.draw_with(seen, style, options, find, self.held.as_mut())
     }
 
     /// The lines of the parts whose style asks for curves that are found as `options` says; smoke hides none of them.
@@ -128,8 +157,9 @@ impl<'a> LineRenderer<'a> {
     ) -> Result<Drawing, RenderError> {
         self.finder.start_view();
         let model = self.posed.as_deref().unwrap_or(self.given);
-        let find = self.finder.as_mut();
-        model.draw_curves(camera, style, (options, is_open), pictures, find)
+        let find: &mut dyn Finder = self.finder.as_mut();
+        let by = (find, self.held.as_mut());
+        model.draw_curves(camera, style, (options, is_open), pictures, by)
     }
 
     /// How long each pass of the last view took; none on the processor.

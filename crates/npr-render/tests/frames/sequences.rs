@@ -69,6 +69,7 @@ fn shot(angle_deg: f32, count: Option<u32>) -> Shot {
     Shot {
         camera: camera(angle_deg),
         smoke: count.map(puffs),
+        passed: false,
     }
 }
 

@@ -7,6 +7,7 @@ mod cache;
 mod cards;
 mod colors;
 mod creases;
+mod hold;
 mod image;
 mod meaning;
 mod polylines;

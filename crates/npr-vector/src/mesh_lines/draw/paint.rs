@@ -143,6 +143,7 @@ fn stroke_of(run: &Run, paint_at: &(dyn Fn(&Run, &RunPoint) -> PointPaint + Sync
             width: paint.width,
             u,
             world: point.world.as_vec3().to_array(),
+            location,
             color: paint.color,
         }
     });

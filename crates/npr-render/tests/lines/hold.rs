@@ -1,0 +1,135 @@
+//! Strokes that hold still from frame to frame.
+
+use crate::scenes::{SIZE, camera_at, scene_of};
+use npr_core::camera::{Camera, bounds_of};
+use npr_core::math::{cos_f64, sin_f64};
+use npr_mesh::testing::{icosphere, mapped};
+use npr_render::{Drawing, HeldLines, LineModel, LineModelOptions, LineOptions, LineSource};
+use npr_scene::Scene;
+use npr_stylesheet::Style;
+use npr_vector::project::Projector;
+use std::collections::BTreeSet;
+
+/// A ball with bumps, whose outlines run into each other and end everywhere.
+fn bumpy_ball() -> Scene {
+    let bump = |[x, y, z]: [f32; 3]| {
+        let [a, b, c] = [x, y, z].map(f64::from);
+        let height = sin_f64(9.0 * a + 1.0) * sin_f64(8.0 * b) * sin_f64(7.0 * c + 2.0);
+        [x, y, z].map(|v| v * (1.6 + 0.25 * height as f32))
+    };
+    scene_of(&mapped(&icosphere(5), bump))
+}
+
+fn camera(frame: u32) -> Camera {
+    let turn = 0.4 + 0.5_f64.to_radians() * f64::from(frame);
+    let [x, z] = [sin_f64(turn), cos_f64(turn)].map(|v| 7.0 * v as f32);
+    camera_at([x, 2.0, z])
+}
+
+fn model(scene: &Scene) -> LineModel {
+    LineModel::for_style(scene, &Style::default(), &LineModelOptions::default(), None)
+        .expect("a small scene")
+}
+
+/// The frames of a turn, each held to the one before or not.
+fn turn(model: &LineModel, options: &LineOptions, is_held: bool) -> Vec<Drawing> {
+    let (mut held, style) = (HeldLines::default(), Style::default());
+    let frames = (0..24).map(|frame| match is_held {
+        true => model.draw_held(&camera(frame), &style, options, &mut held),
+        false => model.draw(&camera(frame), &style, options),
+    });
+    frames.collect::<Result<_, _>>().expect("drawn")
+}
+
+/// Of the points of all frames that lie where the surface carries one of the frame before: the shares whose texture
+/// jumps, and whose strokes have other ids.
+fn changes(model: &LineModel, frames: &[Drawing]) -> [f64; 2] {
+    let bounds = bounds_of(model.shape().positions.iter().copied().map(Into::into));
+    let (mut all, mut changed) = (0, [0; 2]);
+    for (pair, frame) in frames.windows(2).zip(1..) {
+        let projector = Projector::new(&camera(frame), SIZE, bounds);
+        let points = |drawing: &Drawing| -> Vec<(u64, f64, [f64; 2])> {
+            let strokes = drawing.strokes.iter().filter(|stroke| !stroke.closed);
+            let places = strokes.flat_map(|stroke| {
+                stroke.points.iter().map(|point| {
+                    let world = glam::DVec3::from(point.world.map(f64::from));
+                    (stroke.id, point.u, projector.project(world))
+                })
+            });
+            places.collect()
+        };
+        let [before, after] = [0, 1].map(|i| points(&pair[i]));
+        for (id, u, [x, y]) in after {
+            let away = |other: &&(u64, f64, [f64; 2])| (other.2[0] - x).hypot(other.2[1] - y);
+            let nearest = before.iter().min_by(|a, b| away(a).total_cmp(&away(b)));
+            let Some(was) = nearest.filter(|was| away(was) < 2.0) else {
+                continue;
+            };
+            all += 1;
+            changed[0] += usize::from((u - was.1).abs() > 8.0);
+            changed[1] += usize::from(id != was.0);
+        }
+    }
+    assert!(all > 1000, "{all}");
+    changed.map(|count| f64::from(count as u32) / f64::from(all))
+}
+
+#[test]
+fn textures_and_ids_hold_while_the_camera_turns() {
+    let model = model(&bumpy_ball());
+    for method in [
+        LineSource::Edges,
+        LineSource::Surface,
+        LineSource::Image,
+        LineSource::Potrace,
+    ] {
+        let options = LineOptions {
+            method,
+            ..LineOptions::new(SIZE)
+        };
+        let [raw, held] =
+            [false, true].map(|is_held| changes(&model, &turn(&model, &options, is_held)));
+        assert!(
+            raw[0] > 0.02 && held[0] < 0.4 * raw[0],
+            "{method:?}: {held:?} of {raw:?}"
+        );
+        assert!(held[1] < 0.6 * raw[1], "{method:?}: {held:?} of {raw:?}");
+    }
+}
+
+#[test]
+fn each_id_is_there_once_and_lines_are_those_of_stills() {
+    let model = model(&bumpy_ball());
+    let options = LineOptions {
+        hidden: true,
+        ..LineOptions::new(SIZE)
+    };
+    let [stills, held] = [false, true].map(|is_held| turn(&model, &options, is_held));
+    assert_eq!(held[0], stills[0], "the first frame is a still");
+    for (held, still) in held.iter().zip(&stills) {
+        let ids: BTreeSet<u64> = held.strokes.iter().map(|stroke| stroke.id).collect();
+        assert_eq!(ids.len(), held.strokes.len());
+        let lengths = |drawing: &Drawing| {
+            let mut all: Vec<f64> = drawing
+                .strokes
+                .iter()
+                .map(|stroke| stroke.length())
+                .collect();
+            all.sort_by(f64::total_cmp);
+            all
+        };
+        let [a, b] = [held, still].map(lengths);
+        assert!(a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-6));
+    }
+}
+
+#[test]
+fn held_frames_are_the_same_on_any_number_of_threads() {
+    let model = model(&bumpy_ball());
+    let frames = |count| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build();
+        pool.expect("threads")
+            .install(|| turn(&model, &LineOptions::new(SIZE), true))
+    };
+    assert_eq!(frames(1), frames(3));
+}

@@ -1,0 +1,219 @@
+//! Strokes that hold still from frame to frame: which way they run, where their texture lies, and what they are called
+//! is taken over from the frame before [Kalnins et al. 2003].
+//!
+//! [`remembered`] keeps samples of a frame's strokes by their place on the surface, and finds them again in the next
+//! view. Every sample of a new stroke votes with the remembered one that it is ([`votes`]): for a way to run, for an
+//! identity ([`identity`]), which also keeps its place in the order ([`order`]), and for a shift of the texture coordinate ([`phase`]). Closed strokes start where they did
+//! ([`seam`]).
+//!
+//! Differs: the paper fits a slope to the votes of a run, too; here a pixel along a stroke stays a pixel of its
+//! texture, so that dashes and stamps never stretch. Where parts of one stroke had textures of their own these stay,
+//! and change over along some pixels.
+
+mod identity;
+mod order;
+mod phase;
+mod remembered;
+mod seam;
+mod votes;
+
+use crate::mesh_lines::run::distance;
+use crate::project::Projector;
+use crate::stroke::{Stroke, StrokePoint};
+use glam::DVec3;
+use identity::settle_ids;
+use npr_mesh::half_edge::HalfEdgeMesh;
+use rayon::prelude::*;
+use remembered::{Known, Line, Place, sampled};
+use votes::{Tally, Vote, tally, votes_of};
+
+/// Frames for which ink that nothing took over is remembered: what is hidden for a moment comes back as it was.
+const FRAMES_MOST: u8 = 4;
+
+/// Cosine of the largest angle by which a camera turns from frame to frame; beyond it is another picture.
+const TURN_COS: f64 = 0.87;
+
+/// Least share of samples that have to find one of the frame before; with fewer it is another picture.
+const LEAST_SHARE: f64 = 0.2;
+
+/// Least number of samples in a row that are remembered beyond a frame.
+const LEAST_LEFT: usize = 4;
+
+/// The strokes of a frame, as far as the next one needs them: 32 bytes for every two pixels of line.
+///
+/// ```
+/// # use npr_core::camera::Camera;
+/// # use npr_mesh::half_edge::HalfEdgeMesh;
+/// # use npr_vector::hold::HeldStrokes;
+/// # use npr_vector::project::Projector;
+/// # let shape = HalfEdgeMesh::default();
+/// # let projector = Projector::new(&Camera::framing([-1.0; 3], [1.0; 3]), [64, 36], ([-1.0; 3], [1.0; 3]));
+/// let mut held = HeldStrokes::default();
+/// // Once a frame, in the order of the frames:
+/// let mut strokes = Vec::new();
+/// held.hold(&mut strokes, &shape, &projector);
+/// ```
+#[derive(Debug, Clone, Default)]
+pub struct HeldStrokes {
+    lines: Vec<Line>,
+    samples: Vec<remembered::Sample>,
+    /// Where the camera looked.
+    forward: Option<DVec3>,
+}
+
+impl HeldStrokes {
+    /// Gives the strokes of a frame what they had in the frame before, and remembers them.
+    ///
+    /// `shape` is the surface in the pose of this frame, whatever pose it had before: its vertices, edges and faces
+    /// keep their numbers. A stroke runs the way that most of its samples ran, and has the identity that most of them
+    /// had, unless another has more of it; what is new keeps its own, made of mesh edges. `u` is shifted as a whole
+    /// where all samples agree, else by parts of 24 pixels and more. Strokes keep their order, and new ones come behind
+    /// those that they came behind. After a cut nothing is taken over: where the camera turns by more than 30 degrees,
+    /// or fewer than a fifth of the samples find one of the frame before.
+    ///
+    /// O(pixels of line), on all threads, with the same result for any number of them.
+    pub fn hold(&mut self, strokes: &mut Vec<Stroke>, shape: &HalfEdgeMesh, projector: &Projector) {
+        // Forget all where the camera jumped.
+        let forward = projector.forward();
+        if self
+            .forward
+            .is_some_and(|before| before.dot(forward) < TURN_COS)
+        {
+            *self = Self::default();
+        }
+
+        // Find what is known in the new view, and how the strokes lie on it.
+        let mut known = Known::new(&self.lines, &self.samples, shape, projector);
+        let mut tallies: Vec<Tally> = strokes
+            .par_iter()
+            .map(|stroke| tally(&known, stroke))
+            .collect();
+        let [found, all] = tallies.iter().fold([0; 2], |[found, all], tally| {
+            [found + tally.vote_count, all + tally.sample_count]
+        });
+        if (found as f64) < LEAST_SHARE * all as f64 {
+            known = Known::default();
+            *self = Self::default();
+            tallies
+                .iter_mut()
+                .for_each(|tally| *tally = Tally::default());
+        }
+
+        // Turn strokes as they ran, start rings where they started, and shift the textures.
+        let of_strokes = strokes.par_iter_mut().zip(&tallies);
+        let taken: Vec<Vec<Vote>> = of_strokes
+            .map(|(stroke, tally)| {
+                if tally.vote_count == 0 {
+                    return Vec::new();
+                }
+                if tally.is_reversed {
+                    reverse(stroke);
+                }
+                if let (true, Some(line)) = (stroke.closed, tally.main_line()) {
+                    seam::start_at(stroke, known.start_of(line));
+                }
+                let samples = sampled(stroke);
+                let votes = votes_of(&known, stroke, &samples);
+                phase::shift(stroke, &samples, &votes, &known);
+                votes.into_iter().flatten().collect()
+            })
+            .collect();
+        settle_ids(strokes, &tallies, &self.lines);
+        order::keep(strokes, &self.lines);
+
+        // Remember them, and what of the frames before nothing took over.
+        let left = self.left_over(taken.iter().flatten());
+        *self = left;
+        for (stroke, rank) in strokes.iter().zip(0..) {
+            self.remember((stroke, rank), shape, projector);
+        }
+        self.forward = Some(projector.forward());
+    }
+
+    /// The parts of remembered lines that no vote took over, one frame older.
+    fn left_over<'a>(&self, taken: impl Iterator<Item = &'a Vote>) -> Self {
+        // Mark what was taken, and what lies right beside it.
+        let mut is_taken = vec![false; self.samples.len()];
+        for vote in taken {
+            let (from, to) = (vote.sample.saturating_sub(1), vote.sample + 2);
+            let around = from as usize..(to as usize).min(is_taken.len());
+            is_taken[around].fill(true);
+        }
+
+        // Keep long enough rows of the rest.
+        let mut left = Self::default();
+        for line in self.lines.iter().filter(|line| line.age < FRAMES_MOST) {
+            let mut from = line.range().start;
+            for row in is_taken[line.range()].chunk_by(|a, b| a == b) {
+                let samples = from..from + row.len();
+                from = samples.end;
+                if !row[0] && row.len() >= LEAST_LEFT {
+                    let older = Line {
+                        age: line.age + 1,
+                        ..*line
+                    };
+                    left.add(older, self.samples[samples].iter().copied());
+                }
+            }
+        }
+        left
+    }
+
+    fn remember(
+        &mut self,
+        (stroke, rank): (&Stroke, u32),
+        shape: &HalfEdgeMesh,
+        projector: &Projector,
+    ) {
+        let line = Line {
+            id: stroke.id,
+            kind: stroke.kind,
+            is_hidden: !stroke.is_visible(),
+            around_px: if stroke.closed {
+                stroke.length() as f32
+            } else {
+                0.0
+            },
+            age: 0,
+            rank,
+            samples: [0; 2],
+        };
+        let samples: Vec<Place> = sampled(stroke);
+        let samples = samples.iter();
+        self.add(
+            line,
+            samples.map(|place| place.remembered(shape, projector)),
+        );
+    }
+
+    fn add(&mut self, line: Line, samples: impl Iterator<Item = remembered::Sample>) {
+        let from = self.samples.len() as u32;
+        self.samples.extend(samples);
+        let to = self.samples.len() as u32;
+        self.lines.push(Line {
+            samples: [from, to],
+            ..line
+        });
+    }
+}
+
+/// The same stroke, travelled the other way; a closed one keeps its first point. `u` is measured anew by [`phase`].
+fn reverse(stroke: &mut Stroke) {
+    match stroke.closed {
+        true => stroke.points[1..].reverse(),
+        false => stroke.points.reverse(),
+    }
+    measure(&mut stroke.points);
+}
+
+/// Gives every point the way from the first as its `u`.
+fn measure(points: &mut [StrokePoint]) {
+    let mut last: Option<StrokePoint> = None;
+    for point in points {
+        point.u = last.map_or(0.0, |last| last.u + distance(last.position, point.position));
+        last = Some(*point);
+    }
+}
+
+#[cfg(test)]
+mod tests;

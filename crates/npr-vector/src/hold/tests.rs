@@ -1,0 +1,346 @@
+use super::*;
+use crate::stroke::Kind;
+use crate::surface_location::SurfaceLocation;
+use npr_core::camera::{Camera, Projection};
+use npr_core::geometry::NONE;
+use npr_mesh::Mesh;
+use npr_mesh::testing::{Random, shape_of};
+use proptest::prelude::*;
+
+const SIZE: [u32; 2] = [640, 480];
+
+/// A sheet before the eye: a pixel of the picture is a unit of the world. It is moved to the right by some pixels.
+fn sheet(right: f32) -> HalfEdgeMesh {
+    let corners = [[-2e3, -2e3, 0.0], [4e3, -2e3, 0.0], [-2e3, 4e3, 0.0]];
+    let moved = corners.map(|[x, y, z]: [f32; 3]| [x + right, y, z]);
+    let mesh = Mesh::new(moved.to_vec(), vec![[0, 1, 2]]);
+    shape_of(&mesh.expect("a triangle"))
+}
+
+/// The view of a camera that stands to the left by some pixels, so that the sheet shows to the right.
+fn view(right: f32) -> Projector {
+    let at = |z: f32| [-right, 0.0, z];
+    let camera = Camera {
+        eye: at(100.0),
+        target: at(0.0),
+        up: [0.0, 1.0, 0.0],
+        projection: Projection::Parallel {
+            height: SIZE[1] as f32,
+        },
+    };
+    Projector::new(&camera, SIZE, ([-2e3, -2e3, 0.0], [4e3, 4e3, 0.0]))
+}
+
+/// A stroke through places of the picture, which shows the sheet moved to the right by some pixels.
+fn stroke(id: u64, places: &[[f64; 2]], closed: bool, right: f32) -> Stroke {
+    let point = |place: &[f64; 2]| StrokePoint {
+        position: [place[0] + f64::from(right), place[1]],
+        depth: 100.0,
+        width: 2.0,
+        world: [(place[0] - 320.0) as f32, (240.0 - place[1]) as f32, 0.0],
+        location: SurfaceLocation {
+            edge: NONE,
+            face: 0,
+        },
+        ..StrokePoint::default()
+    };
+    let mut points: Vec<StrokePoint> = places.iter().map(point).collect();
+    measure(&mut points);
+    Stroke {
+        id,
+        kind: Kind::Contour,
+        occluders: 0,
+        surface: 0,
+        closed,
+        points,
+    }
+}
+
+fn line(id: u64, from: f64, to: f64, y: f64) -> Stroke {
+    stroke(id, &[[from, y], [to, y]], false, 0.0)
+}
+
+fn ring(first: u32) -> Stroke {
+    let place = |i: u32| {
+        let turn = f64::from((i + first) % 60) * std::f64::consts::TAU / 60.0;
+        let [sin, cos] = [npr_core::math::sin_f64(turn), npr_core::math::cos_f64(turn)];
+        [320.0 + 80.0 * cos, 240.0 + 80.0 * sin]
+    };
+    stroke(7, &(0..60).map(place).collect::<Vec<_>>(), true, 0.0)
+}
+
+/// The strokes of frames that show the sheet where it stands, each held to the one before.
+fn held(frames: impl IntoIterator<Item = Vec<Stroke>>) -> Vec<Vec<Stroke>> {
+    let (shape, view) = (sheet(0.0), view(0.0));
+    let mut state = HeldStrokes::default();
+    let hold = |mut strokes: Vec<Stroke>| {
+        state.hold(&mut strokes, &shape, &view);
+        strokes
+    };
+    frames.into_iter().map(hold).collect()
+}
+
+/// The texture coordinate of a stroke at the place with this x, of one along a row.
+fn u_at(stroke: &Stroke, x: f64) -> f64 {
+    let is_around = |pair: &&[StrokePoint]| {
+        let [a, b] = [pair[0].position[0], pair[1].position[0]];
+        a.min(b) <= x && x <= a.max(b)
+    };
+    let pair = stroke
+        .points
+        .windows(2)
+        .find(is_around)
+        .expect("on the stroke");
+    let share = (x - pair[0].position[0]) / (pair[1].position[0] - pair[0].position[0]);
+    pair[0].u + share * (pair[1].u - pair[0].u)
+}
+
+#[test]
+fn a_stroke_that_got_a_new_start_keeps_its_texture_way_and_id() {
+    let [_, after] = held([
+        vec![line(1, 100.0, 300.0, 50.0)],
+        vec![line(9, 340.0, 60.0, 50.0)],
+    ])
+    .try_into()
+    .expect("two frames");
+    assert_eq!(after.len(), 1);
+    assert_eq!(after[0].id, 1);
+    assert_eq!(after[0].points[0].position, [60.0, 50.0]);
+    assert_eq!(
+        [60.0, 100.0, 250.0].map(|x| u_at(&after[0], x)),
+        [-40.0, 0.0, 150.0]
+    );
+}
+
+#[test]
+fn the_first_frame_and_what_is_new_stay_as_they_are() {
+    let first = vec![
+        line(4, 10.0, 90.0, 20.0),
+        ring(0),
+        line(2, 10.0, 90.0, 30.0),
+    ];
+    let new = line(5, 10.0, 90.0, 300.0);
+    let second = [first.clone(), vec![new.clone()]].concat();
+    let frames = held([first.clone(), second.clone()]);
+    assert_eq!(frames, [first, second]);
+}
+
+#[test]
+fn strokes_that_are_joined_keep_both_textures() {
+    let apart = vec![line(1, 100.0, 200.0, 50.0), line(2, 203.0, 263.0, 50.0)];
+    let frames = held([apart.clone(), vec![line(1, 100.0, 263.0, 50.0)], apart]);
+    let joined = &frames[1][0];
+    assert_eq!((frames[1].len(), joined.id), (1, 1));
+    for (x, want) in [(100.0, 0.0), (190.0, 90.0), (215.0, 12.5), (262.0, 59.5)] {
+        assert!(
+            (u_at(joined, x) - want).abs() < 0.1,
+            "{x}: {}",
+            u_at(joined, x)
+        );
+    }
+
+    // In between it changes over within 12 pixels; apart again, both have what they had, but for half a pixel by which
+    // the lesser one came nearer.
+    let changes = |x: &i32| {
+        let [from, to] = [0, 1].map(|by| u_at(joined, f64::from(x + by)));
+        (to - from - 1.0).abs() > 1e-6
+    };
+    let changing: Vec<i32> = (100..262).filter(changes).collect();
+    assert!(
+        changing.len() <= 14 && changing.iter().all(|x| (190..213).contains(x)),
+        "{changing:?}"
+    );
+    let parted = &frames[2];
+    assert_eq!(parted.len(), 2);
+    assert_eq!(parted[0].id, 1);
+    assert!((u_at(&parted[0], 150.0) - 50.0).abs() < 0.1);
+    assert!(
+        (u_at(&parted[1], 250.0) - 47.5).abs() < 0.1,
+        "{}",
+        u_at(&parted[1], 250.0)
+    );
+}
+
+#[test]
+fn an_id_goes_to_the_larger_part_alone() {
+    let whole = vec![line(1, 100.0, 300.0, 50.0)];
+    let parts = vec![line(1, 100.0, 140.0, 50.0), line(8, 150.0, 300.0, 50.0)];
+    let frames = held([whole, parts.clone(), parts]);
+    for parted in &frames[1..] {
+        let ids: Vec<u64> = parted.iter().map(|stroke| stroke.id).collect();
+        let at = |x: f64| {
+            parted
+                .iter()
+                .find(|stroke| stroke.points[0].position[0] == x)
+        };
+        assert_eq!(at(150.0).map(|stroke| stroke.id), Some(1));
+        assert!(ids.len() == 2 && ids[0] != ids[1], "{ids:?}");
+    }
+}
+
+#[test]
+fn a_ring_starts_where_it_started() {
+    let frames = held([vec![ring(0)], vec![ring(20)], vec![ring(45)]]);
+    for frame in &frames[1..] {
+        assert_eq!(frame, &frames[0]);
+    }
+}
+
+#[test]
+fn what_is_gone_for_a_moment_comes_back_as_it_was() {
+    let beside = || line(3, 100.0, 300.0, 90.0);
+    let gone = |count| {
+        let mut frames = vec![vec![beside(), line(1, 100.0, 300.0, 50.0)]];
+        frames.extend(vec![vec![beside()]; count]);
+        frames.push(vec![beside(), line(6, 320.0, 80.0, 50.0)]);
+        held(frames).pop().expect("a frame")
+    };
+    let back = gone(usize::from(FRAMES_MOST));
+    assert_eq!((back[1].id, back[1].points[0].u), (1, -20.0));
+    let new = gone(usize::from(FRAMES_MOST) + 1);
+    assert_eq!((new[1].id, new[1].points[0].u), (6, 0.0));
+}
+
+#[test]
+fn lines_of_other_kinds_at_one_place_keep_their_own() {
+    let crease = |id, from, to| Stroke {
+        kind: Kind::Crease,
+        ..line(id, from, to, 50.5)
+    };
+    let [_, after] = held([
+        vec![line(1, 100.0, 300.0, 50.0), crease(2, 60.0, 300.0)],
+        vec![crease(3, 80.0, 300.0), line(4, 110.0, 300.0, 50.0)],
+    ])
+    .try_into()
+    .expect("two frames");
+    let of = |kind| after.iter().find(|stroke| stroke.kind == kind);
+    let of = |kind| of(kind).map(|stroke| (stroke.id, stroke.points[0].u));
+    assert_eq!(of(Kind::Contour), Some((1, 10.0)));
+    assert_eq!(of(Kind::Crease), Some((2, 20.0)));
+}
+
+#[test]
+fn after_a_cut_nothing_is_taken_over() {
+    let (shape, mut state) = (sheet(0.0), HeldStrokes::default());
+    let mut first = vec![line(1, 100.0, 300.0, 50.0)];
+    state.hold(&mut first, &shape, &view(0.0));
+
+    // Elsewhere in the picture.
+    let all = || {
+        vec![
+            line(5, 300.0, 90.0, 50.0),
+            stroke(6, &[[0.0, 200.0], [600.0, 400.0], [0.0, 470.0]], false, 0.0),
+        ]
+    };
+    let mut next = all();
+    state.clone().hold(&mut next, &shape, &view(0.0));
+    assert_eq!(next, all());
+
+    // The other way round.
+    let from_behind = Camera {
+        eye: [0.0, 0.0, -100.0],
+        target: [0.0; 3],
+        up: [0.0, 1.0, 0.0],
+        projection: Projection::Parallel {
+            height: SIZE[1] as f32,
+        },
+    };
+    let behind = Projector::new(&from_behind, SIZE, ([-2e3; 3], [4e3; 3]));
+    let mirrored = |x: f64| 640.0 - x;
+    let mut next = vec![line(5, mirrored(300.0), mirrored(90.0), 50.0)];
+    state.hold(&mut next, &shape, &behind);
+    assert_eq!((next[0].id, next[0].points[0].u), (5, 0.0));
+}
+
+/// Strokes far enough apart that none can be taken for another, each through some places of its row.
+fn rows() -> impl Strategy<Value = Vec<Stroke>> {
+    let row = prop::collection::vec([10.0..40.0_f64, -6.0..6.0], 3..12);
+    prop::collection::vec((row, any::<bool>()), 1..12).prop_map(|rows| {
+        let strokes = rows.into_iter().zip(0..).map(|((steps, closed), number)| {
+            let mut x = 40.0;
+            let mut places: Vec<[f64; 2]> = steps
+                .iter()
+                .map(|[step, aside]| {
+                    x += step;
+                    [x, 30.0 + 36.0 * f64::from(number) + aside]
+                })
+                .collect();
+            if closed {
+                places.push([x - 5.0, 30.0 + 36.0 * f64::from(number) + 14.0]);
+            }
+            stroke(u64::from(number as u32) + 1, &places, closed, 0.0)
+        });
+        strokes.collect()
+    })
+}
+
+proptest! {
+    /// Strokes that are the same but for their order, way, start and ids become those that they were, and move with
+    /// the surface and with the camera.
+    #[test]
+    fn strokes_become_those_that_they_were(
+        before in rows(), seed: u64, right in -40.0..40.0_f32, by_camera: bool,
+    ) {
+        let (shape, mut state) = (sheet(0.0), HeldStrokes::default());
+        let mut first = before.clone();
+        state.hold(&mut first, &shape, &view(0.0));
+        prop_assert_eq!(&first, &before);
+
+        // Shuffle them, and move the sheet.
+        let mut random = Random::new(seed);
+        let mut next = before.clone();
+        random.shuffle(&mut next);
+        for stroke in &mut next {
+            stroke.id = 1000 + random.below(1 << 20) as u64 * 16 + stroke.id;
+            for point in &mut stroke.points {
+                point.position[0] += f64::from(right);
+                point.world[0] += if by_camera { 0.0 } else { right };
+            }
+            if random.below(2) == 0 {
+                reverse(stroke);
+            }
+            if stroke.closed {
+                let start = random.below(stroke.points.len());
+                stroke.points.rotate_left(start);
+                measure(&mut stroke.points);
+            }
+        }
+        match by_camera {
+            true => state.hold(&mut next, &shape, &view(right)),
+            false => state.hold(&mut next, &sheet(right), &view(0.0)),
+        }
+        prop_assert_eq!(next.len(), before.len());
+        for (after, before) in next.iter().zip(&before) {
+            prop_assert_eq!((after.id, after.closed), (before.id, before.closed));
+            prop_assert_eq!(after.points.len(), before.points.len());
+            for (a, b) in after.points.iter().zip(&before.points) {
+                prop_assert!((a.position[0] - b.position[0] - f64::from(right)).abs() < 1e-3);
+                prop_assert!((a.u - b.u).abs() < 0.05, "{} {}", a.u, b.u);
+            }
+        }
+    }
+
+    /// Of what nothing happens to nothing changes, to the bit, whatever was joined and parted before.
+    #[test]
+    fn what_stands_still_stays_to_the_bit(cuts in prop::collection::vec(60.0..560.0_f64, 0..6), again: bool) {
+        let parted = |cuts: &[f64]| -> Vec<Stroke> {
+            let mut at: Vec<f64> = [&[20.0, 620.0], cuts].concat();
+            at.sort_by(f64::total_cmp);
+            let parts = at.windows(2).zip(1..).filter(|(pair, _)| pair[1] - pair[0] > 4.0);
+            parts.map(|(pair, id)| line(id, pair[0], pair[1] - 1.0, 50.0)).collect()
+        };
+        let (shape, view) = (sheet(0.0), view(0.0));
+        let mut state = HeldStrokes::default();
+        if again {
+            state.hold(&mut parted(&[]), &shape, &view);
+        }
+        let mut frames = (0..3).map(|_| {
+            let mut strokes = [parted(&cuts), vec![ring(3)]].concat();
+            state.hold(&mut strokes, &shape, &view);
+            strokes
+        });
+        let first = frames.next();
+        prop_assert_eq!(&frames.next(), &first);
+        prop_assert_eq!(&frames.next(), &first);
+    }
+}
