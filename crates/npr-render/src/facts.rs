@@ -14,5 +14,9 @@ pub fn facts_of(scene: &Scene, smoke: bool) -> Facts {
         textures: materials.any(|material| material.base_color_texture.is_some()),
         vertex_colors: parts().any(|part| part.colors.is_some()),
         lights: !scene.lights.is_empty(),
+        toons: scene
+            .materials
+            .iter()
+            .any(|material| material.toon.is_some()),
     }
 }

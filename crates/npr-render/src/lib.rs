@@ -64,6 +64,7 @@ mod subject;
 mod surfaces;
 mod textures;
 mod tiles;
+mod toon;
 
 #[cfg(feature = "wgpu")]
 pub use device::{EmbeddedRenderer, HostView};

@@ -15,3 +15,4 @@ mod polylines;
 mod poses;
 mod skies;
 mod smoke;
+mod toons;

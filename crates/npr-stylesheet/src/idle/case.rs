@@ -59,6 +59,8 @@ pub struct Facts {
     pub vertex_colors: bool,
     /// Lights.
     pub lights: bool,
+    /// Materials that say how they are drawn as toons.
+    pub toons: bool,
 }
 
 impl Facts {
@@ -69,6 +71,7 @@ impl Facts {
         textures: true,
         vertex_colors: true,
         lights: true,
+        toons: true,
     };
 }
 
