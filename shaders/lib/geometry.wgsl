@@ -104,6 +104,7 @@ struct Part {
     line_kinds: array<u32, COLORED_KINDS>,
     hatch_grain: f32,
     spots_per_px: f32,
+    toon: u32,
 }
 
 const PART_DOUBLE_SIDED: u32 = 1u;
@@ -130,7 +131,10 @@ const PART_ANGLE: u32 = 524288u;
 const PART_PAINTED: u32 = 1048576u;
 const PART_PLAIN: u32 = 2097152u;
 const PART_TONE_ROW: u32 = 4194304u;
-const PART_SPARED: u32 = 8388608u;
+const PART_TOON: u32 = 8388608u;
+const PART_TOON_LINE: u32 = 16777216u;
+const PART_WORLD_LINE: u32 = 33554432u;
+const PART_SPARED: u32 = 67108864u;
 const PART_FOLDS: u32 = 1073741824u;
 
 const LINE_KINDS: u32 = KINDS_COLORED;

@@ -84,7 +84,8 @@ fn main(
     // Turn the width factor into pixels.
     let s = width_at(vertex, normal, direction, world, depth);
     var base = outline.base_width * parts[vertex.part].width_factor;
-    if (outline.flags & OUTLINE_WORLD_WIDTH) != 0u {
+    let is_in_world = (parts[vertex.part].flags & PART_WORLD_LINE) != 0u;
+    if is_in_world || (outline.flags & OUTLINE_WORLD_WIDTH) != 0u {
         base /= max(world_per_pixel(view, max(depth, view.near)), 1e-20);
     }
     var width = base * width_factor(outline.min_factor, outline.max_factor, s.x);

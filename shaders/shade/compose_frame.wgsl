@@ -48,6 +48,7 @@
 //# use lib/hull
 //# use lib/surface_line
 //# use lib/grazing
+//# use lib/toon
 //# use lib/ink_tone
 //# use lib/inking
 //# use lib/gloss
@@ -62,11 +63,12 @@
 // Width of a tone step from which on it is so gentle that one place of a pixel stands for all.
 const GENTLE: f32 = 0.25;
 
-// Whether light changes so gently over a part that one place of a pixel stands for all.
+// Whether light changes so gently over a part that one place of a pixel stands for all. The flags come last: with them
+// ahead of the ramp, lavapipe of Mesa 22.3 crashes on frames with toons.
 fn is_gentle(part: u32) -> bool {
     return lights.shadow_side == 0u
-        && (parts[part].flags & (PART_ANGLE | PART_TONE_ROW)) == 0u
-        && (parts[part].softness >= GENTLE || parts[part].ramp[1].a > 1.5);
+        && (parts[part].softness >= GENTLE || parts[part].ramp[1].a > 1.5)
+        && (parts[part].flags & (PART_ANGLE | PART_TONE_ROW | PART_TOON)) == 0u;
 }
 
 // Light of the samples in `members` on a triangle, and the share of it that a line covers.
@@ -98,7 +100,13 @@ fn shade(id: u32, constants: TriangleConstants, members: u32, frame_px: vec2<f32
         drawn = shade_surface(id, triangle, constants, members, frame_px, center, corners);
     }
     if drawn.lined != 0.0 {
-        let line = contrasted(line_light(triangle, corners, center, vec2<f32>(1.0), is_hull), frame_px);
+        var own = vec3<f32>(0.0);
+        if is_hull && has_toon_line(triangle.part) {
+            own = toon_outline(triangle, corners, center);
+        } else {
+            own = line_light(triangle, corners, center, vec2<f32>(1.0), is_hull);
+        }
+        let line = contrasted(own, frame_px);
         drawn.light += (line - drawn.light) * drawn.lined;
     }
     return drawn.light;
@@ -118,8 +126,13 @@ fn shade_surface(
     let part = triangle.part;
     let is_plain = (constants.bits & KNOWN_PLAIN) != 0u;
     let is_even = (constants.bits & KNOWN_EVEN) != 0u;
+    let is_toon = is_toon(part);
     var color = constants.color;
-    if !is_plain {
+    var paint: ToonPaint;
+    if is_toon {
+        color = vec3<f32>(1.0);
+        paint = toon_paint(triangle, corners, center, false);
+    } else if !is_plain {
         color = strengthened(base_color(triangle, corners, center));
     }
 
@@ -135,6 +148,7 @@ fn shade_surface(
     let counted = select(first, members, by_sample);
     let share = 1.0 / f32(countOneBits(counted));
     var gloss = vec3<f32>(0.0);
+    var toon = vec3<f32>(0.0);
     var lined = 0.0;
     var darks = vec4<u32>(0u);
     var tones = vec4<f32>(0.0);
@@ -149,7 +163,9 @@ fn shade_surface(
         var dark = 0u;
         if !is_even {
             if !is_gentle { dark = shadowed(id, corners, weights); }
-            let lit = coordinate_under(world, normal, dark, open_at(open, at - center));
+            let open_here = open_at(open, at - center);
+            if is_toon { toon += toon_light(part, paint, world, normal, dark, open_here) * share; }
+            let lit = coordinate_under(world, normal, dark, open_here);
             tones = with_sample(tones, i, lit.x);
             tints.red = with_sample(tints.red, i, lit.color.r);
             tints.green = with_sample(tints.green, i, lit.color.g);
@@ -183,6 +199,7 @@ fn shade_surface(
         light.b = sum_over(ramp.blue * tints.blue * lit_share, samples);
         if (parts[part].flags & PART_UNLIT) != 0u { light = vec3<f32>(1.0); }
     }
+    if is_toon { light = toon; }
 
     // Lay ink over it, once for samples in the same shadows.
     let ink = mean_ink(id, corners, known_ink(constants), center, counted, darks);

@@ -48,7 +48,7 @@ fn one_step(part: u32, range: vec2<f32>) -> bool {
 fn even_light(part: u32, corners: Corners) -> Even {
     var even: Even;
     let flags = parts[part].flags;
-    if (flags & PART_ANGLE) != 0u { return even; }
+    if (flags & (PART_ANGLE | PART_TOON)) != 0u { return even; }
     if (flags & PART_UNLIT) != 0u {
         even.light = vec3<f32>(1.0);
         even.is_so = lights.shadow_side == 0u || (flags & (PART_INK | PART_HATCH | PART_HIGHLIGHTS)) == 0u;

@@ -71,6 +71,8 @@ features! {
     BRUSHES = 24;
     /// Hatching shows the grain of the paper.
     GRAIN = 25;
+    /// Surfaces are lit as toon materials say.
+    TOON = 26;
 }
 
 impl Features {

@@ -125,6 +125,7 @@ const LIBRARIES: &[Library] = &[
     serving!(Features::TINTS, "tints"),
     always!("tone_range"),
     serving!(Features::TONE_ROWS, "tone_row"),
+    serving!(Features::TOON, "toon"),
     always!("triangle_constants"),
     always!("unit"),
     always!("varying"),

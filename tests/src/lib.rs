@@ -22,6 +22,7 @@ mod montage;
 mod object;
 mod png;
 mod smoke;
+mod toon;
 mod wanted;
 
 pub use agreement::Agreement;
@@ -34,4 +35,5 @@ pub use npr_gpu::device::testing::device;
 pub use object::{Object, boxed, crossing_boxes, placed, scene_of};
 pub use png::{read_png, write_png};
 pub use smoke::{SmokeFilm, draw_smoke, front_camera, orbit_camera};
+pub use toon::{stripes, toon_ball};
 pub use wanted::Wanted;

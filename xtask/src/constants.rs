@@ -102,6 +102,7 @@ const TWINS: &[Twins] = &[
     twins("lib/ink.wgsl", "BITS_", "npr-vector/src/pixel_strokes/fragment.rs", "BITS_"),
     twins("lib/texture.wgsl", "", "npr-core/src/texture.rs", ""),
     twins("lib/tone_row.wgsl", "", "npr-style/src/tone_row.rs", ""),
+    twins("lib/toon.wgsl", "", "npr-style/src/toon.rs", ""),
     twins("lib/smoke_cover.wgsl", "SMOKE_LAYER_", "npr-style/src/smoke/resolve.rs", ""),
     twins("line/color_mask.wgsl", "", "npr-style/src/line_color.rs", ""),
     twins("line/detect.wgsl", "", "npr-vector/src/screen/detect.rs", ""),

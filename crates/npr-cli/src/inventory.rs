@@ -1,5 +1,6 @@
 //! The contents of a scene, as data that can be printed in words or as JSON.
 
+mod toon;
 mod volume;
 mod words;
 
@@ -8,6 +9,7 @@ pub use volume::VolumeInventory;
 use crate::source::Loaded;
 use npr_scene::{AlphaMode, Format, LightKind, Override, Projection, Scene};
 use serde::Serialize;
+use toon::Toon;
 
 /// The contents of a scene: what it holds, what is drawn and what is ignored.
 #[derive(Debug, Clone, Serialize)]
@@ -73,6 +75,8 @@ struct Material {
     alpha: &'static str,
     double_sided: bool,
     unlit: bool,
+    /// How the file asks for it to be drawn as a toon; `null` where it does not.
+    toon: Option<Toon>,
 }
 
 #[derive(Debug, Clone, Serialize)]
@@ -238,6 +242,7 @@ fn material(material: &npr_scene::Material) -> Material {
         },
         double_sided: material.double_sided,
         unlit: material.unlit,
+        toon: material.toon.as_deref().map(Toon::of),
     }
 }
 

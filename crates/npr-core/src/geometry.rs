@@ -181,7 +181,7 @@ pub struct Part {
     pub material: u32,
     /// Where its base colour texture's header starts in the texture store, or [`NONE`].
     pub texture: u32,
-    /// Bits of [`Part::DOUBLE_SIDED`] to [`Part::TONE_ROW`].
+    /// Bits of [`Part::DOUBLE_SIDED`] to [`Part::FOLDS`].
     pub flags: u32,
     /// Factor on the line width.
     pub width_factor: f32,
@@ -266,6 +266,8 @@ pub struct Part {
     pub hatch_grain: f32,
     /// Hills of the paper per pixel.
     pub spots_per_px: f32,
+    /// Where its toon material starts in the texture store, with [`Part::TOON`] or [`Part::TOON_LINE`].
+    pub toon: u32,
     /// Fills up what these leave of a multiple of 16 bytes.
     pub unused: [u32; UNUSED],
 }
@@ -316,10 +318,11 @@ gpu_layout!(Part {
     line_kinds,
     hatch_grain,
     spots_per_px,
+    toon,
 });
 
-/// Words of [`Part`] from the light behind to the paper, the last sixteen bytes that it fills.
-const LAST: usize = 3 + COLORED_KINDS + 2;
+/// Words of [`Part`] from the light behind to its end, the last that it fills.
+const LAST: usize = 3 + COLORED_KINDS + 3;
 
 /// Words of [`Part`] behind them.
 const UNUSED: usize = LAST.next_multiple_of(4) - LAST;
@@ -371,8 +374,14 @@ impl Part {
     pub const PLAIN: u32 = 2_097_152;
     /// Its tones are a row of the texture store, not its ramp.
     pub const TONE_ROW: u32 = 4_194_304;
+    /// It is lit as a toon material says, not by its ramp.
+    pub const TOON: u32 = 1 << 23;
+    /// Its hull has the colour that its toon material gives it.
+    pub const TOON_LINE: u32 = 1 << 24;
+    /// Its line width is measured in the world, whatever the style says.
+    pub const WORLD_LINE: u32 = 1 << 25;
     /// The pen leaves out some of the shade of its vertices.
-    pub const SPARED: u32 = 8_388_608;
+    pub const SPARED: u32 = 1 << 26;
     /// Its lines are found where its faces fold, whatever its normals say.
     pub const FOLDS: u32 = 1 << 30;
     /// Any outline.

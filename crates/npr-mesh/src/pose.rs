@@ -69,8 +69,10 @@ pub fn pose_vertex(with: &Pose<'_>, vertex: &Vertex, influence: &Influence) -> P
 
     // Turn the width factor into pixels.
     let (s, widest) = width_at(with, vertex, normal, direction, world, depth);
-    let mut base = outline.base_width * with.parts[vertex.part as usize].width_factor;
-    if outline.flags & Outline::WORLD_WIDTH != 0 {
+    let part = &with.parts[vertex.part as usize];
+    let mut base = outline.base_width * part.width_factor;
+    let is_in_world = part.flags & Part::WORLD_LINE != 0;
+    if is_in_world || outline.flags & Outline::WORLD_WIDTH != 0 {
         base /= view.pixel_before_eye(depth);
     }
     let width = base * width_factor(outline.min_factor, outline.max_factor, s);

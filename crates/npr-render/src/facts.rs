@@ -15,5 +15,9 @@ pub fn facts_of(scene: &Scene, smoke: bool) -> Facts {
         vertex_colors: parts().any(|part| part.colors.is_some()),
         lights: !scene.lights.is_empty(),
         faces: !scene.skins.is_empty() && scene.bones().contains_key(&Bone::HEAD),
+        toons: scene
+            .materials
+            .iter()
+            .any(|material| material.toon.is_some()),
     }
 }

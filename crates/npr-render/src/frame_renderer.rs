@@ -217,6 +217,7 @@ impl Needs {
         };
         let shows_pictures = styled.background_texture != NONE || parts.iter().any(has_picture);
 
+        let has_toons = any(Part::TOON | Part::TOON_LINE);
         let is_textured = parts.iter().any(|part| part.texture != NONE);
         let is_colored = is_textured || !styled.vertices.iter().all(Vertex::is_white);
         let is_shaped = |part: &Part| {
@@ -234,9 +235,10 @@ impl Needs {
         // Put them together.
         let all = [
             Features::CUTOUTS.when(any(Part::CUTOUT)),
-            Features::TEXTURES.when(shows_pictures),
+            Features::TEXTURES.when(shows_pictures || has_toons),
             Features::COLORS.when(is_colored),
             Features::TONE_ROWS.when(any(Part::TONE_ROW)),
+            Features::TOON.when(has_toons),
             Features::LIGHTS.when(!is_one_sun),
             Features::SHADOWS.when(casts),
             Features::SKY.when(styled.sky.is_some()),

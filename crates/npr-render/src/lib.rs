@@ -65,6 +65,7 @@ mod subject;
 mod surfaces;
 mod textures;
 mod tiles;
+mod toon;
 
 #[cfg(feature = "wgpu")]
 pub use device::{EmbeddedRenderer, HostView};

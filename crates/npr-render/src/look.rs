@@ -11,6 +11,7 @@ use crate::options::RendererOptions;
 use crate::part_info::PartInfo;
 use crate::pictures::{Pictures, add_tone_rows};
 use crate::sky::SkyMaps;
+use crate::toon::{add_toons, has_toon_widths_alone, outline_share};
 use glam::Vec3;
 use npr_core::camera::Camera;
 use npr_core::color::{pack_rgba8, srgb_from_linear};
@@ -81,6 +82,7 @@ impl StyledModel {
             world_px,
         };
         add_tone_rows(model, style, &pictures, &mut parts, &mut textures)?;
+        add_toons(model, style, options, &mut parts, &mut textures);
         add_line_colors(
             &model.parts,
             style,
@@ -339,9 +341,11 @@ impl<'a> VertexWidth<'a> {
     /// Width factor 0..1 of vertex `i`, 1 where the source is missing; for projected curvature the tightest there is.
     fn at(&self, i: usize) -> f32 {
         let (vertex, width) = (&self.model.vertices[i], &self.style.line.width);
+        let hinted = outline_share(self.model, self.style, i);
         match width.source {
-            WidthSource::Constant => 1.0,
+            WidthSource::Constant => hinted.unwrap_or(1.0),
             WidthSource::ProjectedCurvature => vertex.width,
+            _ if hinted.is_some() => hinted.unwrap_or(1.0),
             WidthSource::Curvature => width_of_curvature(tightest(vertex.curvatures), width.gain),
             WidthSource::VertexColor => {
                 f32::from(vertex.color.to_le_bytes()[width.channel.index()]) / 255.0
@@ -411,13 +415,17 @@ pub(crate) fn outline(
 ) -> Outline {
     let (line, detect) = (&style.line, &style.detect);
     let bit = |bit: u32, when: bool| if when { bit } else { 0 };
-    let in_world = line.width.base.unit == Unit::World;
+    let in_world = line.width.base.unit == Unit::World && !has_toon_widths_alone(style);
     let published = line.method == OutlineMethod::Okuya;
+    let own_width = if in_world {
+        line.scaled(line.width.base).value
+    } else {
+        base_px(style, height_px, dpi, 0.0)
+    };
     Outline {
-        base_width: if in_world {
-            line.scaled(line.width.base).value
-        } else {
-            base_px(style, height_px, dpi, 0.0)
+        base_width: match has_toon_widths_alone(style) {
+            true => 1.0,
+            false => own_width,
         },
         min_factor: line.width.min,
         max_factor: line.width.max,

@@ -10,6 +10,7 @@ use crate::part_info::PartInfo;
 use crate::placement::{self, Bounds, around};
 use crate::smoke::Smoke;
 use crate::textures::{Textures, base_color_texture};
+use crate::toon::PartToon;
 use glam::{Mat4, Vec3};
 use npr_core::camera::Camera;
 use npr_core::crease::CreaseFrom;
@@ -211,8 +212,10 @@ impl Model {
             .map(|part| {
                 let info = PartInfo::new(scene, object, &node.name, part.material);
                 let texture = base_color_texture(scene, part, textures);
+                let toon = PartToon::new(scene, part, textures);
                 PartInfo {
                     texture,
+                    toon: toon.map(Box::new),
                     has_uvs: part.uvs.is_some(),
                     ids: part.ids.clone(),
                     ..info

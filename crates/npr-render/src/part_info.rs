@@ -1,5 +1,6 @@
 //! What a model knows of each of its surfaces, before a style is applied.
 
+use crate::toon::PartToon;
 use npr_core::geometry::NONE;
 use npr_scene::{AlphaMode, Material, Scene};
 use npr_stylesheet::{Look, PartNames, Style};
@@ -38,6 +39,8 @@ pub struct PartInfo {
     pub metallic: f32,
     /// 0 polished, 1 dull.
     pub roughness: f32,
+    /// How the file asks for it to be drawn as a toon; `None` where it does not, and in line models.
+    pub(crate) toon: Option<Box<PartToon>>,
 }
 
 impl PartInfo {
@@ -72,6 +75,7 @@ impl PartInfo {
             has_uvs: false,
             metallic: found.metallic,
             roughness: found.roughness,
+            toon: None,
         }
     }
 

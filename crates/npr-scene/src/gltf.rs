@@ -16,6 +16,8 @@ pub(crate) mod mesh;
 pub(crate) mod primitive;
 pub(crate) mod skin;
 pub(crate) mod texture;
+pub(crate) mod toon;
+pub(crate) mod toon_0;
 pub(crate) mod topology;
 pub(crate) mod tree;
 pub(crate) mod unused;

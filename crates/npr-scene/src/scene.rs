@@ -27,7 +27,7 @@ pub struct Scene {
     pub meshes: Vec<Mesh>,
     /// Materials of the file; those that no part uses come without their image.
     pub materials: Vec<Material>,
-    /// Decoded base colour images.
+    /// Decoded images of base colours and of toon materials.
     pub images: Vec<Image>,
     /// Cameras that nodes use.
     pub cameras: Vec<Camera>,
@@ -133,11 +133,10 @@ impl Scene {
             assert_in(part.material, self.materials.len(), "material");
         }
         for material in &self.materials {
-            let image = material
-                .base_color_texture
-                .as_ref()
-                .map(|texture| texture.image);
-            assert_in(image, self.images.len(), "image");
+            let of_toon = material.toon.iter().flat_map(|toon| toon.textures());
+            for texture in material.base_color_texture.iter().chain(of_toon) {
+                assert_in(Some(texture.image), self.images.len(), "image");
+            }
         }
 
         // Check skins.

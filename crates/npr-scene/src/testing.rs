@@ -22,6 +22,20 @@ pub fn glb(json: &str, bin: &[u8]) -> Vec<u8> {
     file
 }
 
+/// A PNG file of pixels, row by row from the top.
+///
+/// # Panics
+///
+/// Where the pixels do not fill the size.
+pub fn picture(size: [u32; 2], pixels: &[[u8; 4]]) -> Vec<u8> {
+    let mut file = Vec::new();
+    let encoder = image::codecs::png::PngEncoder::new(&mut file);
+    let color = image::ExtendedColorType::Rgba8;
+    image::ImageEncoder::write_image(encoder, pixels.as_flattened(), size[0], size[1], color)
+        .expect("pixels that fill the picture");
+    file
+}
+
 /// One chunk of a binary glTF file: length, kind, bytes.
 pub fn glb_chunk(kind: u32, bytes: &[u8]) -> Vec<u8> {
     let mut chunk = (bytes.len() as u32).to_le_bytes().to_vec();

@@ -38,6 +38,7 @@ pub mod smoke;
 mod surface_color;
 mod tone;
 pub mod tone_row;
+pub mod toon;
 mod triangle_constants;
 
 pub use length::{LONGEST, Length, LengthError, REFERENCE_HEIGHT_PX, Unit};

@@ -298,7 +298,7 @@ pub(crate) struct LinePoint {
 
 impl LinePoint {
     /// Weights of the triangle's corners at the position, moved by `dx` and `dy` steps.
-    fn weights(&self, view: &View, corners: &Corners<'_>, dx: f32, dy: f32) -> [f32; 3] {
+    pub(crate) fn weights(&self, view: &View, corners: &Corners<'_>, dx: f32, dy: f32) -> [f32; 3] {
         let px = [
             self.px[0] + dx * self.step_px[0],
             self.px[1] + dy * self.step_px[1],

@@ -12,6 +12,7 @@ use crate::lighting::Openness;
 use crate::line_color::LinePoint;
 use crate::ramp::{Level, ramp_light};
 use crate::tone_row::{row_is_even, row_light};
+use crate::toon::ToonPaint;
 use crate::triangle_constants::TriangleConstants;
 use npr_core::geometry::Part;
 use npr_core::math;
@@ -63,7 +64,7 @@ struct Group {
 /// The sums over a group's samples.
 #[derive(Debug, Clone, Copy, Default)]
 struct Sampled {
-    /// Factor on the surface's colour.
+    /// Factor on the surface's colour; of a toon its light.
     light: [f32; 3],
     /// Share of it that is inked, 0..1.
     ink: f32,
@@ -112,7 +113,7 @@ impl Inked {
 impl Layers<'_> {
     /// Light of a triangle that is lit in one tone all over, whatever its ink and its highlights; else `None`.
     pub(crate) fn even_light(&self, part: &Part, corners: &Corners<'_>) -> Option<[f32; 3]> {
-        if part.flags & Part::ANGLE != 0 {
+        if part.flags & (Part::ANGLE | Part::TOON) != 0 {
             return None;
         }
         let in_shadow = Part::INK | Part::HATCH | Part::HIGHLIGHTS;
@@ -145,8 +146,8 @@ impl Layers<'_> {
     /// Whether light changes so gently over a part that one place of a pixel stands for all.
     fn is_gentle(&self, part: &Part) -> bool {
         self.lights.shadow_side == 0
-            && part.flags & (Part::ANGLE | Part::TONE_ROW) == 0
             && (part.softness >= GENTLE || part.ramp[1][3] >= Level::UNUSED)
+            && part.flags & (Part::ANGLE | Part::TONE_ROW | Part::TOON) == 0
     }
 
     /// Light of triangle `id`, which the samples in `members` show.
@@ -165,7 +166,11 @@ impl Layers<'_> {
         let triangle = &self.triangles[((id & ID_MASK) - 1) as usize];
         let part = &self.parts[triangle.part as usize];
         let group = self.group(id, members, frame_px);
-        let color = if known.is_plain() {
+        let is_toon = part.flags & Part::TOON != 0;
+        let paint = is_toon.then(|| self.toon_paint(triangle, part, corners, group.center));
+        let color = if is_toon {
+            [1.0; 3]
+        } else if known.is_plain() {
             known.color
         } else {
             let color = self.plain_color(triangle, part, corners, group.center);
@@ -173,7 +178,7 @@ impl Layers<'_> {
         };
 
         // Light it, and lay ink and highlights over it.
-        let sampled = self.sampled(&group, part, corners, known);
+        let sampled = self.sampled(&group, (part, paint.as_ref()), corners, known);
         let light = sampled.light;
         let drawn = inked(
             part,
@@ -216,14 +221,14 @@ impl Layers<'_> {
     fn sampled(
         &self,
         group: &Group,
-        part: &Part,
+        (part, paint): (&Part, Option<&ToonPaint>),
         corners: &Corners<'_>,
         known: &TriangleConstants,
     ) -> Sampled {
         // Look at every sample where an edge of the light may go through the group.
         let is_even = known.is_even();
         if !is_even && !self.is_gentle(part) {
-            return self.at_samples(group, part, corners, known);
+            return self.at_samples(group, (part, paint), corners, known);
         }
 
         // Find the surface at the middle, once for light and highlights.
@@ -297,7 +302,7 @@ impl Layers<'_> {
     fn at_samples(
         &self,
         group: &Group,
-        part: &Part,
+        (part, paint): (&Part, Option<&ToonPaint>),
         corners: &Corners<'_>,
         known: &TriangleConstants,
     ) -> Sampled {
@@ -313,7 +318,10 @@ impl Layers<'_> {
             let dark = self.shadowed(group.id, corners, weights);
             let px = self.sample_px(group, i);
             let open = open.at([px[0] - group.center[0], px[1] - group.center[1]]);
-            let light = self.light_of(part, world, normal, dark, open);
+            let light = match paint {
+                Some(paint) => self.toon_light(part, paint, (world, normal), dark, open),
+                None => self.light_of(part, world, normal, dark, open),
+            };
             sum.light = std::array::from_fn(|k| sum.light[k] + light[k] / count);
             sum.line += self.grazing(part, corners, px) / count;
 

@@ -69,6 +69,7 @@ mod potrace;
 mod preset;
 mod ramp;
 mod rule;
+mod scene_hints;
 mod schema;
 mod set;
 mod shade;
@@ -116,6 +117,7 @@ pub use potrace::Potrace;
 pub use preset::{DEFAULT_PRESET, Preset, find as find_preset, presets};
 pub use ramp::Stop;
 pub use rule::{Match, PartNames, Rule, RuleLine, RuleShade};
+pub use scene_hints::{SceneHint, SceneHints};
 pub use schema::schema;
 pub use shade::{Shade, ShadeMode, levels};
 pub use smoke::{

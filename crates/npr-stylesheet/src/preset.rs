@@ -71,6 +71,7 @@ const PRESETS: &[Preset] = presets![
     "lit-lines" 5 "../presets/lit-lines.toml",
     "night" 4 "../presets/night.toml",
     "plain" 2 "../presets/plain.toml",
+    "mtoon" 1 "../presets/mtoon.toml",
     "smoke-cel-2" 4 "../presets/smoke-cel-2.toml",
     "smoke-cel-3" 4 "../presets/smoke-cel-3.toml",
     "smoke-ink" 5 "../presets/smoke-ink.toml",

@@ -7,7 +7,7 @@ use crate::error::StyleError;
 use crate::former::name_of_today;
 use crate::key::entry;
 use crate::schema::Node;
-use crate::{Style, check, layers};
+use crate::{Style, check, layers, scene_hints};
 
 /// Longest override, in bytes, and deepest key.
 const TEXT_BYTES_MAX: usize = 1 << 16;
@@ -61,6 +61,7 @@ impl<'a> Assignment<'a> {
     fn apply(&self, table: &mut Table) -> Result<(), StyleError> {
         self.check_lists(table)?;
         yield_rules(table, &self.path);
+        scene_hints::yield_to(table, &self.path);
         insert(table, &self.path, self.value.clone()).ok_or_else(|| StyleError::Assignment {
             text: self.text.to_owned(),
         })?;

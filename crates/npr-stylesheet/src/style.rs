@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 use crate::overlay::Over;
 use crate::{
     Antialias, Background, BackgroundMethod, Blend, CardLines, Detect, Highlight, IdMap, Ink,
-    Lettering, Light, Line, LineSource, Motion, OutlineMethod, Paper, Parents, Rule, Shade,
-    SmokeStyle,
+    Lettering, Light, Line, LineSource, Motion, OutlineMethod, Paper, Parents, Rule, SceneHints,
+    Shade, SmokeStyle,
 };
 
 /// What a picture should look like.
@@ -31,6 +31,10 @@ pub struct Style {
     /// Empty once a style has been read.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub strokes: String,
+    /// Whether materials of the scene that say how they are drawn, as MToon of VRM avatars does, are drawn so; default
+    /// false. A list of `shade` and `outline` uses these alone. What the scene says goes before rules, and overrides go
+    /// before the scene. Outlines are those of method `hull`.
+    pub use_scene_hints: SceneHints,
     /// What shows where no surface is: a colour, `transparent` or an image; default white.
     pub background: Background,
     /// How surfaces are filled.
@@ -76,6 +80,7 @@ impl Default for Style {
             version: 1,
             extends: Parents::default(),
             strokes: String::new(),
+            use_scene_hints: SceneHints::default(),
             background: Background::default(),
             shade: Shade::default(),
             ink: Ink::default(),

@@ -16,3 +16,4 @@ mod polylines;
 mod poses;
 mod skies;
 mod smoke;
+mod toons;

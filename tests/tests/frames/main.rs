@@ -13,3 +13,4 @@ mod snapshots;
 mod speed_lines;
 mod stroke_directions;
 mod tone_pictures;
+mod toons;

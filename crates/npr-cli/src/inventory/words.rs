@@ -143,6 +143,9 @@ impl Material {
         for (_, mark) in marks.iter().filter(|(holds, _)| *holds) {
             let _ = write!(text, ", {mark}");
         }
+        if let Some(toon) = &self.toon {
+            let _ = write!(text, ", {}", toon.text());
+        }
         text
     }
 }

@@ -32,7 +32,7 @@ fn drawn(place: &Workplace, command: &str, scene: &str, more: &[&str]) -> (Vec<u
     assert_eq!(outcome.code, Some(0), "{more:?}: {}", outcome.stderr);
     let lines = outcome.stderr.lines();
     let said: Vec<&str> = lines
-        .filter(|line| !line.contains("look-at, springs"))
+        .filter(|line| !line.contains("look-at and springs"))
         .collect();
     (place.get(file), said.join("\n"))
 }

@@ -9,7 +9,7 @@ use npr_core::outline::Outline;
 use npr_core::smoke::Sphere;
 use npr_core::texture::{TextureStore, Wrap};
 use npr_core::window::View;
-use npr_mesh::testing::{Random, torus, uv_sphere};
+use npr_mesh::testing::{Random, mapped, torus, uv_sphere};
 use npr_mesh::{EdgeFlags, NO_FACE, smooth_normals, unique_edges, weld};
 use npr_style::backdrop::{Criteria, PartSubject, Rule, Rules};
 use npr_style::brush::{BrushImage, Tip};
@@ -18,6 +18,7 @@ use npr_style::lighting::{LightSource, Lights};
 use npr_style::line_color::HUES;
 use npr_style::smoke::{SmokeLook, pen};
 use npr_style::tone_row::{row_words, tone_row};
+use npr_style::toon::{Toon, ToonMap};
 use npr_stylesheet::{HueStop, hue_row};
 use npr_vector::brush::Brush;
 use npr_vector::ink_point::InkPoint;
@@ -135,6 +136,21 @@ impl Scene {
             ..part(3, Part::BEAM, NONE)
         };
         scene.add(&torus(16, 8, 0.9, 0.25), beam, &mut random);
+        // A ring before the others whose toon material has every picture.
+        let words: Vec<u32> = bytemuck::cast_slice(&[toon(texture)]).to_vec();
+        let toon = Part {
+            toon: scene.texels.len() as u32,
+            ..part(
+                4,
+                Part::TOON | Part::TOON_LINE | Part::HULL | Part::WORLD_LINE,
+                texture,
+            )
+        };
+        scene.texels.extend(words);
+        let ring = mapped(&torus(14, 9, 0.5, 0.2), |[x, y, z]| {
+            [x + 0.5, y - 0.3, z + 1.0]
+        });
+        scene.add(&ring, toon, &mut random);
         // Lay the tiles of strokes across the scene, each triangle a little off its place.
         let chart = |triangle: &Triangle| {
             let off = [random.unit() * 0.1, random.unit() * 0.1];
@@ -193,7 +209,7 @@ fn vertex(position: [f32; 3], normal: [f32; 3], part: u32, random: &mut Random) 
         weld_normal: math::pack_unit(normal),
         width: random.unit(),
         part,
-        pen: npr_core::math::pack_shares([random.unit(), random.unit()]),
+        pen: math::pack_shares([random.unit(), random.unit()]),
     }
 }
 
@@ -264,6 +280,34 @@ fn part(object: u32, flags: u32, texture: u32) -> Part {
         line_rim: 0.8,
         ramp,
         ..Part::default()
+    }
+}
+
+/// A toon material whose pictures all are `texture`, each lying in another way.
+fn toon(texture: u32) -> Toon {
+    let map = |i: f32| ToonMap {
+        texture,
+        lay: [0.9 - 0.1 * i, 0.2, 0.1 * i, -0.2, 0.8 + 0.1 * i, 0.3],
+    };
+    Toon {
+        shade_color: [0.4, 0.3, 0.6],
+        toony: 0.6,
+        rim_color: [0.3, 0.5, 0.4],
+        rim_power: 2.5,
+        matcap_color: [0.2, 0.3, 0.1],
+        rim_lift: 0.1,
+        emissive: [0.05, 0.0, 0.1],
+        rim_mix: 0.7,
+        outline_color: [0.6, 0.2, 0.3],
+        outline_mix: 0.8,
+        shift: -0.1,
+        shift_scale: 0.3,
+        gi_equalization: 0.4,
+        shade_map: map(0.0),
+        shift_map: map(1.0),
+        rim_map: map(2.0),
+        emissive_map: map(3.0),
+        matcap_map: map(4.0),
     }
 }
 
@@ -413,9 +457,9 @@ pub fn rules(look: Look) -> Rules {
     rules
 }
 
-/// A subject for either surface; the beam is of none.
-pub fn part_subjects() -> [PartSubject; 3] {
-    [(1, 1), (2, 2), (0, 0)].map(|(subject, rule)| PartSubject { subject, rule })
+/// A subject for either surface; the beam is of none, and neither is the ring before them.
+pub fn part_subjects() -> [PartSubject; 4] {
+    [(1, 1), (2, 2), (0, 0), (0, 0)].map(|(subject, rule)| PartSubject { subject, rule })
 }
 
 /// The first part that strokes are drawn on.

@@ -19,6 +19,7 @@ use serde_json::Value;
 
 use super::accessor::Accessors;
 use super::texture::{Textures, info_uv_set};
+use super::toon;
 use crate::error::SceneError;
 use crate::loading::Loading;
 use crate::material::{AlphaMode, Material};
@@ -39,10 +40,30 @@ pub(crate) fn read(
     let mut textures = Textures::new(accessors);
     for (index, source) in (0u32..).zip(&accessors.root.materials) {
         let mut material = surface(source);
-        if used.contains(&index)
-            && let Some(info) = base_color_info(source)
-        {
+        let is_used = used.contains(&index);
+        if is_used && let Some(info) = base_color_info(source) {
             material.base_color_texture = textures.read(info, index, loading)?;
+        }
+
+        // Read how it is drawn as a toon. VRM 0.x says some of it beside glTF, which counts where glTF says nothing.
+        if let Some(said) = toon::said(accessors.root, (index as usize, source), loading) {
+            let mut images = toon::Images {
+                textures: &mut textures,
+                loading,
+                material: index,
+                is_used,
+                uv_set: toon::base_uv_set(source),
+            };
+            if let Some(beside) = &said.beside {
+                if material.base_color == [1.0; 4] {
+                    material.base_color = beside.base_color;
+                }
+                if base_color_info(source).is_none() {
+                    material.base_color_texture =
+                        images.named(beside.base_color_texture.as_ref())?;
+                }
+            }
+            material.toon = Some(Box::new(toon::read(&said, (source, &material), images)?));
         }
         scene.materials.push(material);
     }
@@ -57,7 +78,7 @@ pub(crate) fn uv_set(root: &Root, primitive: &Primitive) -> u32 {
     material.and_then(base_color_info).map_or(0, info_uv_set)
 }
 
-fn base_color_info(material: &JsonMaterial) -> Option<&Info> {
+pub(super) fn base_color_info(material: &JsonMaterial) -> Option<&Info> {
     let extensions = material.extensions.as_ref();
     match extensions.and_then(|extensions| extensions.pbr_specular_glossiness.as_ref()) {
         Some(specular) => specular.diffuse_texture.as_ref(),
@@ -82,6 +103,7 @@ fn surface(source: &JsonMaterial) -> Material {
         alpha: alpha(source),
         unlit: extensions.is_some_and(|extensions| extensions.unlit.is_some()),
         marked: asks_for_lines(source),
+        toon: None,
     };
     if let Some(specular) =
         extensions.and_then(|extensions| extensions.pbr_specular_glossiness.as_ref())

@@ -1,6 +1,7 @@
 //! VRM avatars: glTF files with a humanoid, expressions and toon materials.
 //!
-//! Geometry and base materials are plain glTF; bones and expressions are read by `figure.rs`, the rest is not.
+//! Geometry and base materials are plain glTF; bones and expressions are read by `figure.rs`, toon
+//! materials by `toon.rs`, the rest is not.
 #![deny(
     clippy::unwrap_used,
     clippy::expect_used,
@@ -54,9 +55,9 @@ fn turn_values<const N: usize>(channel: &mut Channel, turn: impl Fn([f32; N]) ->
 pub(crate) fn note_what_is_ignored(root: &Root, loading: &mut Loading) {
     for (name, version) in [("VRM", "VRM 0.x"), ("VRMC_vrm", "VRM 1.0")] {
         if extension(root, name).is_some() {
-            loading.notices.add(format!(
-                "look-at, springs and toon materials of {version} are ignored"
-            ));
+            loading
+                .notices
+                .add(format!("look-at and springs of {version} are ignored"));
         }
     }
 }

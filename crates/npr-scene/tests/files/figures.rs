@@ -162,7 +162,7 @@ fn assert_told(file: &[u8], from: &str, to: &str, told: &[&str]) -> Scene {
     let scene = load(&glb(&text.replacen(from, to, 1), &bin));
     let said = scene.notices.iter().map(|notice| notice.text.as_str());
     let said: Vec<&str> = said
-        .filter(|text| !text.starts_with("look-at, springs"))
+        .filter(|text| !text.starts_with("look-at and springs"))
         .collect();
     assert_eq!(said, told);
     scene

@@ -10,3 +10,4 @@ mod mutants;
 mod poses;
 mod text_formats;
 mod tolerated;
+mod toons;

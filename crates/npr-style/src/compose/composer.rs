@@ -5,7 +5,7 @@ use crate::backdrop::ContrastCache;
 use crate::corners::Corners;
 use crate::line_color::LinePoint;
 use npr_core::color::{SrgbEncoder, pack_rgba8, srgb_from_linear, unpack_rgba8};
-use npr_core::geometry::NONE;
+use npr_core::geometry::{NONE, Part};
 use npr_core::list::{self, Listed};
 use npr_core::raster::{HULL_BIT, ID_MASK};
 use rayon::prelude::*;
@@ -210,7 +210,10 @@ impl<'a> Composer<'a> {
                 step_px: [1.0; 2],
                 is_hull: true,
             };
-            let line = self.layers.line_light(triangle, part, &corners, &place);
+            let line = match part.flags & Part::TOON_LINE {
+                0 => self.layers.line_light(triangle, part, &corners, &place),
+                _ => self.layers.toon_outline(triangle, part, &corners, &place),
+            };
             return self
                 .layers
                 .contrasted(&mut self.contrast_cache, line, frame_px);

@@ -61,6 +61,8 @@ pub struct Facts {
     pub lights: bool,
     /// Figures with the bone of a head.
     pub faces: bool,
+    /// Materials that say how they are drawn as toons.
+    pub toons: bool,
 }
 
 impl Facts {
@@ -72,6 +74,7 @@ impl Facts {
         vertex_colors: true,
         lights: true,
         faces: true,
+        toons: true,
     };
 }
 

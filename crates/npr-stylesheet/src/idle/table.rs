@@ -78,6 +78,7 @@ pub(super) const ENTRIES: &[Entry] = &[
             "beam",
             "blend",
             "smoke.casts",
+            "use_scene_hints",
         ],
         |c| !c.on.scene.surfaces,
         "the scene is smoke alone",
@@ -86,6 +87,11 @@ pub(super) const ENTRIES: &[Entry] = &[
         &["light.file"],
         |c| !c.on.scene.lights,
         "the scene has no lights of its own",
+    ),
+    entry(
+        &["use_scene_hints"],
+        |c| !c.on.scene.toons,
+        "the scene has no toon materials",
     ),
     entry(
         &["shade.use_textures"],
@@ -152,6 +158,7 @@ pub(super) const ENTRIES: &[Entry] = &[
             "shade.calm",
             "ink",
             "antialias",
+            "use_scene_hints",
         ],
         |c| !c.has_tones(),
         "it draws no tones and no hatching",

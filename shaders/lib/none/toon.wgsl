@@ -1,0 +1,32 @@
+// Toon materials where there are none.
+
+struct ToonPaint {
+    shift: f32,
+}
+
+fn is_toon(part: u32) -> bool {
+    return false;
+}
+
+fn has_toon_line(part: u32) -> bool {
+    return false;
+}
+
+fn toon_paint(triangle: Triangle, corners: Corners, px: vec2<f32>, is_hull: bool) -> ToonPaint {
+    return ToonPaint(0.0);
+}
+
+fn toon_light(
+    part: u32,
+    paint: ToonPaint,
+    world: vec3<f32>,
+    normal: vec3<f32>,
+    dark: u32,
+    open: Openness,
+) -> vec3<f32> {
+    return vec3<f32>(0.0);
+}
+
+fn toon_outline(triangle: Triangle, corners: Corners, px: vec2<f32>) -> vec3<f32> {
+    return vec3<f32>(0.0);
+}
