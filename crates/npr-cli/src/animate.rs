@@ -32,6 +32,9 @@ use npr_scene::Scene;
 use std::io::Write;
 use std::path::Path;
 
+/// Seconds of a film in which pictures on surfaces alone move, whose length nobody says.
+const FLOW_SECONDS: f32 = 5.0;
+
 /// Draws the film that the user asked for, or prints the style.
 pub fn animate(args: &AnimateArguments) -> Result<(), Fault> {
     if args.drawing.look.dump_style {
@@ -101,6 +104,8 @@ struct FilmJob<'a> {
 struct Frameset {
     plan: FilmPlan,
     playing: Option<Playing>,
+    /// Whether pictures on surfaces move.
+    flows: bool,
     target: Target,
     /// The numbers of the frames that are drawn, in rising order.
     numbers: Vec<u32>,
@@ -191,12 +196,13 @@ impl<'a> FilmJob<'a> {
         })
     }
 
-    /// The frames of a film of a scene that was loaded.
-    fn frames(&self, scene: &Scene) -> Result<Frameset, Fault> {
+    /// The frames of a film of a scene that was loaded; `flows` is whether pictures on its surfaces move.
+    fn frames(&self, scene: &Scene, flows: bool) -> Result<Frameset, Fault> {
         let film = &self.args.film;
         let limits = self.args.drawing.limits.limits();
         let playing = Playing::of(&self.args.drawing.pose, scene, film.fps, &limits)?;
-        let plan = FilmPlan::new(film, playing.as_ref().map(Playing::duration_s))?;
+        let clip_s = playing.as_ref().map(Playing::duration_s);
+        let plan = FilmPlan::new(film, clip_s.or(flows.then_some(FLOW_SECONDS)))?;
         let Frames { first, last } = plan.frames;
         let target = match self.format {
             Format::Whole(_) => self.target.clone(),
@@ -207,6 +213,7 @@ impl<'a> FilmJob<'a> {
         Ok(Frameset {
             plan,
             playing,
+            flows,
             numbers: (first..=last).filter(is_wanted).collect(),
             target,
         })
@@ -270,7 +277,8 @@ impl<'a> FilmJob<'a> {
 
     /// Warns of options that have no effect in the frames of the film.
     fn tell_idle(&self, frames: &Frameset, progress: &Progress) {
-        let is_timed = matches!(self.format, Format::Whole(_)) || frames.playing.is_some();
+        let is_timed =
+            matches!(self.format, Format::Whole(_)) || frames.playing.is_some() || frames.flows;
         let notices = idle::of_animate(self.args, self.lines.is_some(), is_timed);
         let of_pose = frames.playing.iter().flat_map(Playing::warnings);
         progress.suspend(|| {
@@ -341,7 +349,9 @@ fn draw_frames(
     film.check(job.options.size, keep_alpha)?;
     let engine = EngineChoice::begin(&args.drawing);
     let loaded = render::load(&job, progress)?;
-    let frames = film.frames(&loaded.scene)?;
+    let is_held = args.drawing.pose.time.is_some();
+    let flows = !is_held && render::moves_pictures(&job.look.style, &loaded.scene);
+    let frames = film.frames(&loaded.scene, flows)?;
     if frames.numbers.is_empty() {
         return Ok(None);
     }
@@ -359,7 +369,7 @@ fn draw_frames(
         ..job.options.clone()
     };
 
-    // Draw all frames.
+    // Draw all frames. Pictures on surfaces move with them, unless a time holds them.
     let encoding = match format {
         PictureFormat::Png => Encoding::Png { keep_alpha },
         PictureFormat::Exr => Encoding::Exr(staged.subject.model.object_names()),
@@ -368,7 +378,14 @@ fn draw_frames(
     let drawn = screened(reel, args.drawing.quiet, progress, |screening, progress| {
         let pictures = |engine: &dyn Engine| {
             let mut renderer = staged.renderer(engine, (&job.look.style, &options))?;
+            let seconds = |number: u32| number as f32 / film.args.film.fps;
             let Some(playing) = &frames.playing else {
+                if frames.flows {
+                    return screening.show_each(&frames.numbers, |number| {
+                        renderer.flow_textures(seconds(number))?;
+                        Ok(Take::from(renderer.draw(&way.still(number))?))
+                    });
+                }
                 let cameras = frames.numbers.iter().map(|number| way.still(*number));
                 return screening.show_all(renderer, cameras.map(Shot::from));
             };
@@ -376,6 +393,9 @@ fn draw_frames(
             screening.show_each(&frames.numbers, |number| {
                 let warning = playing.pose(&mut scene, number);
                 renderer.set_pose(&scene)?;
+                if frames.flows {
+                    renderer.flow_textures(seconds(number))?;
+                }
                 let mut take = Take::from(renderer.draw(&way.at(number, &scene)?)?);
                 take.notices.extend(warning);
                 Ok(take)
@@ -400,7 +420,7 @@ fn draw_lines(
     line_file::check_memory(&job)?;
     let engine = EngineChoice::begin(&args.drawing);
     let loaded = lines::load(&job, progress)?;
-    let frames = film.frames(&loaded.scene)?;
+    let frames = film.frames(&loaded.scene, false)?;
     if frames.numbers.is_empty() {
         return Ok(None);
     }
