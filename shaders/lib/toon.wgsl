@@ -11,11 +11,10 @@ const TOON_MATCAP: u32 = 8u;
 const TOON_EMISSIVE: u32 = 12u;
 const TOON_OUTLINE: u32 = 16u;
 const TOON_SHIFT: u32 = 20u;
-const TOON_SHADE_MAP: u32 = 23u;
-const TOON_SHIFT_MAP: u32 = 30u;
-const TOON_RIM_MAP: u32 = 37u;
-const TOON_EMISSIVE_MAP: u32 = 44u;
-const TOON_MATCAP_MAP: u32 = 51u;
+const TOON_MAPS: u32 = 23u;
+const TOON_MATCAP_MAP: u32 = 58u;
+const TOON_MAP_WORDS: u32 = 7u;
+const TOON_LAID: u32 = 5u;
 
 // Least half width of the border, in cosines: a harder one has none.
 const HARD: f32 = 1e-5;
@@ -102,22 +101,24 @@ fn toon_paint(triangle: Triangle, corners: Corners, px: vec2<f32>, is_hull: bool
     uvs.here = uv_at(triangle, line_weights(corners, px, is_hull));
     uvs.right = uv_at(triangle, line_weights(corners, px + vec2<f32>(1.0, 0.0), is_hull));
     uvs.down = uv_at(triangle, line_weights(corners, px + vec2<f32>(0.0, 1.0), is_hull));
-    var color = vec3<f32>(1.0);
-    if parts[part].texture != NONE {
-        let footprint_uv = footprint(uvs.here, uvs.right, uvs.down);
-        color = sample_texture(parts[part].texture, uvs.here, footprint_uv).rgb;
-    }
     var paint: ToonPaint;
-    paint.base = strengthened(parts[part].base_color.rgb * color);
-    paint.shade = strengthened(toon_color(toon, TOON_SHADE) * toon_map(toon + TOON_SHADE_MAP, uvs));
     paint.shift = toon_number(toon, TOON_SHIFT);
-    if texels[toon + TOON_SHIFT_MAP] != NONE {
-        // The shift is a number, not light.
-        let red = srgb_of(toon_map(toon + TOON_SHIFT_MAP, uvs)).r;
-        paint.shift += red * toon_number(toon, TOON_SHIFT + 1u);
+    // Look up one picture after the other by the same code, which takes long to compile.
+    for (var i = 0u; i < TOON_LAID; i++) {
+        let map = toon + TOON_MAPS + TOON_MAP_WORDS * i;
+        let color = toon_map(map, uvs);
+        switch i {
+            case 0u: { paint.base = strengthened(parts[part].base_color.rgb * color); }
+            case 1u: { paint.shade = strengthened(toon_color(toon, TOON_SHADE) * color); }
+            case 2u: {
+                // The shift is a number, not light.
+                let scale = select(toon_number(toon, TOON_SHIFT + 1u), 0.0, texels[map] == NONE);
+                paint.shift += srgb_from_linear(color.r) * scale;
+            }
+            case 3u: { paint.rim = color; }
+            default: { paint.emissive = toon_color(toon, TOON_EMISSIVE) * color; }
+        }
     }
-    paint.rim = toon_map(toon + TOON_RIM_MAP, uvs);
-    paint.emissive = toon_color(toon, TOON_EMISSIVE) * toon_map(toon + TOON_EMISSIVE_MAP, uvs);
     return paint;
 }
 

@@ -38,6 +38,9 @@ const TRACE: &str = "benches/results/trace.md";
 /// Where the tables of files in other viewers are kept.
 const VIEWERS: &str = "benches/results/viewers.md";
 
+/// Where the tables of figures beside three-vrm are kept, and their pictures.
+const MTOON: [&str; 2] = ["benches/results/mtoon.md", "benches/results/mtoon.png"];
+
 /// A program, arguments with which it only says that it is there, and whence it comes.
 type Need = (&'static str, &'static [&'static str], &'static str);
 
@@ -46,6 +49,17 @@ const VIEWERS_NEEDS: [Need; 4] = [
     ("resvg", &["--version"], "cargo install resvg"),
     ("chromium", &["--version"], "apt: chromium"),
     ("inkscape", &["--version"], "apt: inkscape"),
+    (
+        "python3",
+        &["-c", "import numpy, PIL"],
+        "with numpy and pillow",
+    ),
+];
+
+/// What the tables of figures beside three-vrm need.
+const MTOON_NEEDS: [Need; 3] = [
+    ("chromium", &["--version"], "apt: chromium"),
+    ("npm", &["--version"], "apt: npm"),
     (
         "python3",
         &["-c", "import numpy, PIL"],
@@ -145,6 +159,21 @@ pub fn viewers(root: &Path) -> Result<()> {
         .arg(release_npr(root)?)
         .arg(models);
     write_whole(&root.join(VIEWERS), &printed(program)?)
+}
+
+/// Measures how far figures in the preset mtoon are from those that three-vrm draws, prints the tables and keeps them.
+pub fn mtoon(root: &Path) -> Result<()> {
+    check_needs(&MTOON_NEEDS)?;
+    let models = root.join("../shared/assets/models");
+    ensure!(models.is_dir(), "there is no {}", models.display());
+    let [tables, picture] = MTOON.map(|path| root.join(path));
+    let mut program = Command::new("python3");
+    program
+        .arg(root.join("benches/peers/mtoon.py"))
+        .arg(release_npr(root)?)
+        .arg(models)
+        .arg(picture);
+    write_whole(&tables, &printed(program)?)
 }
 
 /// Measures tracings beside other programs, prints the tables and keeps them.

@@ -33,6 +33,9 @@ use npr_stylesheet::Style;
 use std::io::Write;
 use std::path::Path;
 
+/// Seconds of a film in which pictures on surfaces alone move, whose length nobody says.
+const FLOW_SECONDS: f32 = 5.0;
+
 /// Draws the film that the user asked for, or prints the style.
 pub fn animate(args: &AnimateArguments) -> Result<(), Fault> {
     if args.drawing.look.dump_style {
@@ -102,6 +105,8 @@ struct FilmJob<'a> {
 struct Frameset {
     plan: FilmPlan,
     playing: Option<Playing>,
+    /// Whether pictures on surfaces move.
+    flows: bool,
     target: Target,
     /// The numbers of the frames that are drawn, in rising order.
     numbers: Vec<u32>,
@@ -192,12 +197,13 @@ impl<'a> FilmJob<'a> {
         })
     }
 
-    /// The frames of a film of a scene that was loaded.
-    fn frames(&self, scene: &Scene) -> Result<Frameset, Fault> {
+    /// The frames of a film of a scene that was loaded; `flows` is whether pictures on its surfaces move.
+    fn frames(&self, scene: &Scene, flows: bool) -> Result<Frameset, Fault> {
         let film = &self.args.film;
         let limits = self.args.drawing.limits.limits();
         let playing = Playing::of(&self.args.drawing.pose, scene, film.fps, &limits)?;
-        let plan = FilmPlan::new(film, playing.as_ref().map(Playing::duration_s))?;
+        let clip_s = playing.as_ref().map(Playing::duration_s);
+        let plan = FilmPlan::new(film, clip_s.or(flows.then_some(FLOW_SECONDS)))?;
         let Frames { first, last } = plan.frames;
         let target = match self.format {
             Format::Whole(_) => self.target.clone(),
@@ -208,6 +214,7 @@ impl<'a> FilmJob<'a> {
         Ok(Frameset {
             plan,
             playing,
+            flows,
             numbers: (first..=last).filter(is_wanted).collect(),
             target,
         })
@@ -276,7 +283,8 @@ impl<'a> FilmJob<'a> {
 
     /// Warns of options that have no effect in the frames of the film, drawn in a style.
     fn tell_idle(&self, frames: &Frameset, style: &Style, progress: &Progress) {
-        let is_timed = matches!(self.format, Format::Whole(_)) || frames.playing.is_some();
+        let is_timed =
+            matches!(self.format, Format::Whole(_)) || frames.playing.is_some() || frames.flows;
         let notices = idle::of_animate(self.args, self.lines.is_some(), style, is_timed);
         let of_pose = frames.playing.iter().flat_map(Playing::warnings);
         progress.suspend(|| {
@@ -347,7 +355,9 @@ fn draw_frames(
     film.check(job.options.size, keep_alpha)?;
     let engine = EngineChoice::begin(&args.drawing);
     let loaded = render::load(&job, progress)?;
-    let frames = film.frames(&loaded.scene)?;
+    let is_held = args.drawing.pose.time.is_some();
+    let flows = !is_held && render::moves_pictures(&job.look.style, &loaded.scene);
+    let frames = film.frames(&loaded.scene, flows)?;
     if frames.numbers.is_empty() {
         return Ok(None);
     }
@@ -365,7 +375,7 @@ fn draw_frames(
         ..job.options.clone()
     };
 
-    // Draw all frames.
+    // Draw all frames. Pictures on surfaces move with them, unless a time holds them.
     let encoding = match format {
         PictureFormat::Png => Encoding::Png { keep_alpha },
         PictureFormat::Exr => Encoding::Exr(staged.subject.model.object_names()),
@@ -378,7 +388,20 @@ fn draw_frames(
             if holds {
                 renderer.hold_strokes();
             }
+            let seconds = |number: u32| number as f32 / film.args.film.fps;
             let Some(playing) = &frames.playing else {
+                if frames.flows {
+                    let steps = steps(&frames.numbers, screening.done(), holds);
+                    return screening.show_each(steps, |Step { number, passed }| {
+                        let camera = way.still(number);
+                        if passed {
+                            renderer.pass(&camera)?;
+                            return Ok(None);
+                        }
+                        renderer.flow_textures(seconds(number))?;
+                        Ok(Some(Take::from(renderer.draw(&camera)?)))
+                    });
+                }
                 let shots = steps(&frames.numbers, 0, holds).map(|step| Shot {
                     passed: step.passed,
                     ..Shot::from(way.still(step.number))
@@ -394,6 +417,9 @@ fn draw_frames(
                 if passed {
                     renderer.pass(&camera)?;
                     return Ok(None);
+                }
+                if frames.flows {
+                    renderer.flow_textures(seconds(number))?;
                 }
                 let mut take = Take::from(renderer.draw(&camera)?);
                 take.notices.extend(warning);
@@ -419,7 +445,7 @@ fn draw_lines(
     line_file::check_memory(&job)?;
     let engine = EngineChoice::begin(&args.drawing);
     let loaded = lines::load(&job, progress)?;
-    let frames = film.frames(&loaded.scene)?;
+    let frames = film.frames(&loaded.scene, false)?;
     if frames.numbers.is_empty() {
         return Ok(None);
     }

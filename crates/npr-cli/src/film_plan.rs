@@ -28,7 +28,7 @@ pub enum Turn {
 }
 
 impl FilmPlan {
-    /// The film that the arguments ask for; `clip_s` is how long the clip that plays is, in seconds, none where no clip
+    /// The film that the arguments ask for; `clip_s` is how long what plays is, in seconds, none where nothing
     /// plays.
     pub fn new(args: &FilmArguments, clip_s: Option<f32>) -> Result<Self, Fault> {
         // Refuse a film in which nothing moves.

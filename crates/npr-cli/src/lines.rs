@@ -140,7 +140,7 @@ impl Prepared {
         limits: &Limits,
         progress: &mut Progress,
     ) -> Result<Vec<String>, Fault> {
-        let posed = pose::pose(args, &mut self.scene, limits)?;
+        let posed = pose::pose((args, false), &mut self.scene, limits)?;
         if posed.is_posed {
             progress.step("pose", || {
                 self.lines.set_pose(&self.scene)?;

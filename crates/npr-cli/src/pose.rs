@@ -139,14 +139,19 @@ pub struct Posed {
     pub warnings: Vec<String>,
 }
 
-/// Poses the scene as the user asked for.
-pub fn pose(args: &PoseArguments, scene: &mut Scene, limits: &Limits) -> Result<Posed, Fault> {
+/// Poses the scene as the user asked for; `flows` is whether pictures on its surfaces move in time, besides clips.
+pub fn pose(
+    (args, flows): (&PoseArguments, bool),
+    scene: &mut Scene,
+    limits: &Limits,
+) -> Result<Posed, Fault> {
     let clip = clip_of(args, scene)?;
     let stance = Stance::of(args, scene, clip, limits)?;
     let is_posed = !stance.is_rest();
     let mut warnings = stance.warnings.clone();
     if clip.is_none() {
-        warnings.extend(why_at_rest(args, scene.clips.len(), is_posed));
+        let why = why_at_rest(args, scene.clips.len(), is_posed);
+        warnings.extend(why.filter(|_| !flows || args.time.is_none()));
     }
     warnings.extend(stance.stand(scene, args.time.unwrap_or(0.0)));
     Ok(Posed { is_posed, warnings })
@@ -353,7 +358,7 @@ mod tests {
     #[test]
     fn a_scene_at_rest_is_told_of_once_it_has_clips() {
         let told = |names: &[&str], args: &PoseArguments| {
-            pose(args, &mut scene(names), &Limits::default()).map(|posed| posed.warnings)
+            pose((args, false), &mut scene(names), &Limits::default()).map(|posed| posed.warnings)
         };
         let rest = PoseArguments::default();
         assert_eq!(told(&[], &rest), Ok(vec![]));

@@ -27,7 +27,7 @@ use npr_render::{
     facts_of,
 };
 use npr_scene::{Limits, Scene};
-use npr_stylesheet::{Facts, Occasion, Style};
+use npr_stylesheet::{Facts, Occasion, SceneHint, Style};
 use std::borrow::Cow;
 use std::io::Write;
 use std::path::Path;
@@ -177,6 +177,8 @@ pub struct Prepared {
     pub scene: Scene,
     /// Whether that is another pose than the one at rest.
     is_posed: bool,
+    /// Seconds after which pictures on surfaces are drawn.
+    seconds: f32,
 }
 
 impl Prepared {
@@ -202,6 +204,9 @@ impl Prepared {
         let mut renderer = self.subject.renderer(engine, style, options)?;
         if self.is_posed {
             renderer.set_pose(&self.scene)?;
+        }
+        if self.seconds != 0.0 {
+            renderer.flow_textures(self.seconds)?;
         }
         Ok(renderer)
     }
@@ -242,10 +247,12 @@ pub fn prepare(
     let subject = prepared(&scene, style, &limits, cache, progress)?;
 
     // Pose the scene.
-    let (mut of_pose, mut is_posed) = (Vec::new(), false);
+    let (mut of_pose, mut is_posed, mut seconds) = (Vec::new(), false, 0.0);
     if let Some(args) = pose {
-        let posed = pose::pose(args, &mut scene, &limits)?;
+        let flows = moves_pictures(style, &scene);
+        let posed = pose::pose((args, flows), &mut scene, &limits)?;
         (of_pose, is_posed) = (posed.warnings, posed.is_posed);
+        seconds = args.time.unwrap_or(0.0);
     }
 
     // Warn about what was mended, and about keys and options that have no effect.
@@ -260,7 +267,14 @@ pub fn prepare(
         smoke,
         scene,
         is_posed,
+        seconds,
     })
+}
+
+/// Whether pictures on surfaces of a scene move in time, in a style that lets them.
+pub fn moves_pictures(style: &Style, scene: &Scene) -> bool {
+    let mut toons = scene.materials.iter().flat_map(|material| &material.toon);
+    style.use_scene_hints.uses(SceneHint::Shade) && toons.any(|toon| !toon.flow.is_still())
 }
 
 /// Warns about stated keys of the style that have no effect in pictures of a scene.

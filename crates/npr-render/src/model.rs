@@ -37,6 +37,8 @@ pub struct Model {
     edges: Vec<Edge>,
     /// The folds of the file's normals at every edge.
     normals_cos: Vec<f32>,
+    /// Coordinates of the vertices as the file has them, once time has moved them.
+    pub(crate) still_uvs: Option<Vec<[f32; 2]>>,
     /// The vertices as they were prepared, once morphs have moved them.
     unmorphed: Option<Vec<Vertex>>,
     /// How much longer things of each object are in the world than in its mesh, as it was prepared.
@@ -92,6 +94,7 @@ impl Model {
             triangles: Vec::new(),
             edges: Vec::new(),
             normals_cos: Vec::new(),
+            still_uvs: None,
             unmorphed: None,
             scales: BTreeMap::new(),
             bending: Vec::new(),

@@ -1,5 +1,6 @@
 //! A model, a style and a frame size on an engine, ready to draw.
 
+use crate::bending::Moved;
 use crate::error::RenderError;
 use crate::features::blending::Blending;
 use crate::features::lettering::Lettering;
@@ -23,7 +24,7 @@ use npr_core::camera::Camera;
 use npr_gpu::cost::PassCost;
 use npr_gpu::engine::{Engine, IN_FLIGHT};
 use npr_scene::Scene;
-use npr_stylesheet::Style;
+use npr_stylesheet::{SceneHint, Style};
 use std::borrow::Cow;
 
 /// The style that frames without a line model are drawn in, with what they tell where it is another one.
@@ -296,6 +297,31 @@ impl<'a> Renderer<'a> {
         self.find_strokes(camera)?;
         match &mut self.blended {
             Some((other, _)) => other.pass(camera),
+            None => Ok(()),
+        }
+    }
+
+    /// Draws the pictures of toon materials where they are after some seconds, in the looks of a blend that use the
+    /// scene's hints; see [`Model::flow_textures`]. The model that was given stays as it is.
+    ///
+    /// # Errors
+    ///
+    /// A failing engine.
+    pub fn flow_textures(&mut self, seconds: f32) -> Result<(), RenderError> {
+        let hints = &self.frames.plan.style.use_scene_hints;
+        if hints.uses(SceneHint::Shade) && self.model.has_flow() {
+            self.forget_begun();
+            self.model.to_mut().flow_textures(seconds);
+            let moved = Moved {
+                vertices: true,
+                ..Moved::default()
+            };
+            if !self.frames.pose(&self.model, moved)? {
+                self.plan_anew()?;
+            }
+        }
+        match &mut self.blended {
+            Some((other, _)) => other.flow_textures(seconds),
             None => Ok(()),
         }
     }

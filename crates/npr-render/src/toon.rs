@@ -23,6 +23,69 @@ pub(crate) struct PartToon {
     outline: Option<OutlineWidth>,
     /// Picture whose green the outline's width is multiplied by.
     outline_map: ToonMap,
+    /// How its pictures move; `None` where they stand still.
+    flow: Option<PartFlow>,
+}
+
+/// How the pictures of a part move in time.
+#[derive(Debug, Clone, PartialEq)]
+struct PartFlow {
+    /// Pictures that pass by in a second, and radians of turn.
+    scroll: [f32; 2],
+    rotation: f32,
+    /// Picture whose blue both are multiplied by, at the coordinates of vertices.
+    mask: ToonMap,
+    /// What turns coordinates of the file into those of vertices, and back.
+    laid: ToonMap,
+    back: ToonMap,
+}
+
+impl PartFlow {
+    /// Coordinates of a vertex after some seconds, from those at the start [VRMC_materials_mtoon-1.0, UV animation].
+    fn uv(&self, start: [f32; 2], seconds: f32, texels: &[u32]) -> [f32; 2] {
+        let share = match self.mask.texture {
+            NONE => 1.0,
+            mask => {
+                let blue = texture::sample(texels, mask, self.mask.uv(start), 0.0)[2];
+                srgb_from_linear(blue)
+            }
+        };
+        let (gone, turn) = (seconds * share, self.rotation * seconds * share);
+        let (sin, cos) = (math::sin(turn), math::cos(turn));
+        let [u, v] = self.back.uv(start).map(|v| v - 0.5);
+        self.laid.uv([
+            cos * u + sin * v + 0.5 + self.scroll[0] * gone,
+            cos * v - sin * u + 0.5 + self.scroll[1] * gone,
+        ])
+    }
+}
+
+impl Model {
+    /// Whether pictures on surfaces move in time, as toon materials say.
+    pub fn has_flow(&self) -> bool {
+        let toons = self.parts.iter().filter_map(|info| info.toon.as_ref());
+        toons.into_iter().any(|toon| toon.flow.is_some())
+    }
+
+    /// Moves the pictures of toon materials to where they are after some seconds; 0 is where the file lays them. The
+    /// same time gives the same model, whatever time it had before. Masks of the movement are looked up at vertices.
+    /// O(vertices).
+    pub fn flow_textures(&mut self, seconds: f32) {
+        if !self.has_flow() || !seconds.is_finite() {
+            return;
+        }
+        let still = self.still_uvs.get_or_insert_with(|| {
+            let uvs = self.vertices.iter().map(|vertex| vertex.uv);
+            uvs.collect()
+        });
+        for (vertex, start) in self.vertices.iter_mut().zip(still) {
+            let info = self.parts.get(vertex.part as usize);
+            let toon = info.and_then(|info| info.toon.as_ref());
+            if let Some(flow) = toon.and_then(|toon| toon.flow.as_ref()) {
+                vertex.uv = flow.uv(*start, seconds, self.textures.words());
+            }
+        }
+    }
 }
 
 impl PartToon {
@@ -45,16 +108,32 @@ impl PartToon {
             Some(_) => map(used, &base),
             None => ToonMap::EMPTY,
         };
-        let [shade_map, shift_map, rim_map, emissive_map, outline_map] = [
+        let [
+            shade_map,
+            shift_map,
+            rim_map,
+            emissive_map,
+            outline_map,
+            mask,
+        ] = [
             laid(&said.shade_texture),
             laid(&said.shading_shift_texture),
             laid(&said.rim_texture),
             laid(&said.emissive_texture),
             laid(&said.outline.texture),
+            laid(&said.flow.mask),
         ];
         let matcap_map = map(&said.matcap_texture, &TextureTransform::default());
 
         // Note the values beside them.
+        let lay = |lay: [f32; 6]| ToonMap { texture: NONE, lay };
+        let flow = undone(&base).map(|back| PartFlow {
+            scroll: said.flow.scroll,
+            rotation: said.flow.rotation,
+            mask,
+            laid: lay(rows(&base)),
+            back: lay(back),
+        });
         Some(Self {
             toon: Toon {
                 shade_color: said.shade_color,
@@ -70,6 +149,7 @@ impl PartToon {
                 shift: said.shading_shift,
                 shift_scale: said.shading_shift_scale,
                 gi_equalization: said.gi_equalization,
+                base_map: ToonMap::EMPTY,
                 shade_map,
                 shift_map,
                 rim_map,
@@ -84,6 +164,7 @@ impl PartToon {
             double_sided: said.double_sided,
             outline: said.outline.width,
             outline_map,
+            flow: flow.filter(|_| !said.flow.is_still()),
         })
     }
 }
@@ -95,21 +176,34 @@ fn rows(transform: &TextureTransform) -> [f32; 6] {
     [cos * w, sin * h, x, -sin * w, cos * h, y]
 }
 
+/// The rows that undo a transform; `None` where that is flat.
+fn undone(transform: &TextureTransform) -> Option<[f32; 6]> {
+    let [a, b, x, c, d, y] = rows(transform);
+    let determinant = a * d - b * c;
+    if determinant.abs() < 1e-12 {
+        return None;
+    }
+    let [p, q, r, s] = [d, -b, -c, a].map(|v| v / determinant);
+    Some([p, q, -p * x - q * y, r, s, -r * x - s * y])
+}
+
 /// What turns coordinates that lie by `below` into those that lie by `transform`.
 fn beside(transform: &TextureTransform, below: &TextureTransform) -> [f32; 6] {
     if transform == below {
         return ToonMap::EMPTY.lay;
     }
-    let ([a, b, x, c, d, y], [e, f, u, g, h, v]) = (rows(transform), rows(below));
-    let determinant = e * h - f * g;
-    if determinant.abs() < 1e-12 {
+    let Some([p, q, u, r, s, v]) = undone(below) else {
         return ToonMap::EMPTY.lay;
-    }
-    // Undo what lies below, then apply the transform.
-    let undo = [h, -f, -g, e].map(|v| v / determinant);
-    let [p, q] = [a * undo[0] + b * undo[2], a * undo[1] + b * undo[3]];
-    let [r, s] = [c * undo[0] + d * undo[2], c * undo[1] + d * undo[3]];
-    [p, q, x - p * u - q * v, r, s, y - r * u - s * v]
+    };
+    let [a, b, x, c, d, y] = rows(transform);
+    [
+        a * p + b * r,
+        a * q + b * s,
+        a * u + b * v + x,
+        c * p + d * r,
+        c * q + d * s,
+        c * u + d * v + y,
+    ]
 }
 
 /// Whether a style lets the toon material of a part decide its outline.
@@ -150,24 +244,32 @@ pub(crate) fn add_toons(
         if part.flags & Part::BEAM != 0 {
             continue;
         }
-        let start = textures.add_words(bytemuck::cast_slice(&[without(style, &of_part.toon)]));
-        let Some(start) = start else { continue };
-        part.toon = start;
         if style.use_scene_hints.uses(SceneHint::Shade) {
             shade(info, style, of_part, part);
         }
+        let toon = textured(style, &of_part.toon, part.texture);
+        let Some(start) = textures.add_words(bytemuck::cast_slice(&[toon])) else {
+            part.flags &= !Part::TOON;
+            continue;
+        };
+        part.toon = start;
         if has_outline(info, style) {
             outline((model, style, options), of_part, part);
         }
     }
 }
 
-/// A toon without the pictures that a style does without.
-fn without(style: &Style, toon: &Toon) -> Toon {
+/// A toon with the picture of its base colour, and without those that a style does without.
+fn textured(style: &Style, toon: &Toon, texture: u32) -> Toon {
+    let base_map = ToonMap {
+        texture,
+        ..ToonMap::EMPTY
+    };
     if style.shade.use_textures {
-        return *toon;
+        return Toon { base_map, ..*toon };
     }
     Toon {
+        base_map,
         shade_map: ToonMap::EMPTY,
         emissive_map: ToonMap::EMPTY,
         ..*toon
@@ -245,4 +347,53 @@ pub(crate) fn outline_share(model: &Model, style: &Style, i: usize) -> Option<f3
     };
     let Width { min, max, .. } = style.line.width;
     Some((factor - min) / (max - min).max(1e-6))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn transform(offset: [f32; 2], rotation: f32, scale: [f32; 2]) -> TextureTransform {
+        TextureTransform {
+            offset,
+            rotation,
+            scale,
+        }
+    }
+
+    proptest! {
+        /// The oracle applies one transform after the other.
+        #[test]
+        fn a_picture_lies_where_its_own_transform_has_it(
+            offsets in prop::array::uniform4(-2f32..2.0), turns in prop::array::uniform2(-3f32..3.0),
+            scales in prop::array::uniform4(0.2f32..3.0), uv in prop::array::uniform2(-2f32..2.0),
+        ) {
+            let [a, b, c, d] = offsets;
+            let below = transform([a, b], turns[0], [scales[0], scales[1]]);
+            let own = transform([c, d], turns[1], [scales[2], scales[3]]);
+            let lay = |lay| ToonMap { texture: NONE, lay };
+            let got = lay(beside(&own, &below)).uv(lay(rows(&below)).uv(uv));
+            let wanted = lay(rows(&own)).uv(uv);
+            prop_assert!((0..2).all(|i| (got[i] - wanted[i]).abs() < 1e-3), "{got:?}, not {wanted:?}");
+        }
+    }
+
+    /// A quarter turn about the middle takes the right edge to the top, counter-clockwise in the picture.
+    #[test]
+    fn pictures_turn_about_their_middle_and_scroll() {
+        let still = ToonMap::EMPTY;
+        let mut flow = PartFlow {
+            scroll: [0.0; 2],
+            rotation: std::f32::consts::FRAC_PI_2,
+            mask: still,
+            laid: still,
+            back: still,
+        };
+        let near = |a: [f32; 2], b: [f32; 2]| (0..2).all(|i| (a[i] - b[i]).abs() < 1e-6);
+        assert!(near(flow.uv([1.0, 0.5], 1.0, &[]), [0.5, 0.0]));
+        flow.rotation = 0.0;
+        flow.scroll = [0.25, -0.5];
+        assert!(near(flow.uv([0.5, 0.5], 2.0, &[]), [1.0, -0.5]));
+    }
 }

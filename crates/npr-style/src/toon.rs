@@ -48,6 +48,8 @@ pub struct Toon {
     pub shift_scale: f32,
     /// How much the light of a sky is the same on all sides, 0..1.
     pub gi_equalization: f32,
+    /// Multiplies the base colour.
+    pub base_map: ToonMap,
     /// Multiplies the shade colour.
     pub shade_map: ToonMap,
     /// Moves the border.
@@ -96,18 +98,20 @@ impl ToonMap {
 }
 
 /// Words of a toon material, and where its values and pictures start among them.
-pub const TOON_WORDS: usize = 58;
+pub const TOON_WORDS: usize = 65;
 const TOON_SHADE: usize = 0;
 const TOON_RIM: usize = 4;
 const TOON_MATCAP: usize = 8;
 const TOON_EMISSIVE: usize = 12;
 const TOON_OUTLINE: usize = 16;
 const TOON_SHIFT: usize = 20;
-const TOON_SHADE_MAP: usize = 23;
-const TOON_SHIFT_MAP: usize = 30;
-const TOON_RIM_MAP: usize = 37;
-const TOON_EMISSIVE_MAP: usize = 44;
-const TOON_MATCAP_MAP: usize = 51;
+const TOON_MAPS: usize = 23;
+const TOON_MATCAP_MAP: usize = 58;
+
+/// Words of a picture's description, and how many pictures lie on the surface: one after the other in the order of
+/// their fields.
+const TOON_MAP_WORDS: usize = 7;
+const TOON_LAID: usize = 5;
 
 // Shaders count words where the twin names fields.
 const _: () = {
@@ -119,10 +123,13 @@ const _: () = {
     assert!(offset_of!(Toon, emissive) == 4 * TOON_EMISSIVE);
     assert!(offset_of!(Toon, outline_color) == 4 * TOON_OUTLINE);
     assert!(offset_of!(Toon, shift) == 4 * TOON_SHIFT);
-    assert!(offset_of!(Toon, shade_map) == 4 * TOON_SHADE_MAP);
-    assert!(offset_of!(Toon, shift_map) == 4 * TOON_SHIFT_MAP);
-    assert!(offset_of!(Toon, rim_map) == 4 * TOON_RIM_MAP);
-    assert!(offset_of!(Toon, emissive_map) == 4 * TOON_EMISSIVE_MAP);
+    assert!(size_of::<ToonMap>() == 4 * TOON_MAP_WORDS);
+    assert!(offset_of!(Toon, base_map) == 4 * TOON_MAPS);
+    assert!(offset_of!(Toon, shade_map) == 4 * (TOON_MAPS + TOON_MAP_WORDS));
+    assert!(offset_of!(Toon, shift_map) == 4 * (TOON_MAPS + 2 * TOON_MAP_WORDS));
+    assert!(offset_of!(Toon, rim_map) == 4 * (TOON_MAPS + 3 * TOON_MAP_WORDS));
+    assert!(offset_of!(Toon, emissive_map) == 4 * (TOON_MAPS + 4 * TOON_MAP_WORDS));
+    assert!(offset_of!(Toon, matcap_map) == 4 * (TOON_MAPS + TOON_LAID * TOON_MAP_WORDS));
     assert!(offset_of!(Toon, matcap_map) == 4 * TOON_MATCAP_MAP);
 };
 
@@ -203,14 +210,10 @@ impl Layers<'_> {
 
     /// The same where the corners have these weights, there, to the right and below.
     fn toon_paint_at(&self, triangle: &Triangle, part: &Part, weights: [[f32; 3]; 3]) -> ToonPaint {
-        // Look up the base colour, which vertices do not tint.
+        // Find the coordinates of the pictures. Vertices do not tint the base colour.
         let toon = self.toon_of(part);
         let vertices = triangle.corners.map(|v| &self.vertices[v as usize]);
         let uvs = weights.map(|weights| blend2(weights, vertices.map(|v| v.uv)));
-        let base = ToonMap {
-            texture: part.texture,
-            ..ToonMap::EMPTY
-        };
         let [r, g, b, _] = part.base_color;
         let color = |map: &ToonMap| map.color(self.texels, uvs);
 
@@ -221,7 +224,7 @@ impl Layers<'_> {
             shift += npr_core::color::srgb_from_linear(red) * toon.shift_scale;
         }
         ToonPaint {
-            base: self.strengthened(times([r, g, b], color(&base))),
+            base: self.strengthened(times([r, g, b], color(&toon.base_map))),
             shade: self.strengthened(times(toon.shade_color, color(&toon.shade_map))),
             shift,
             rim: color(&toon.rim_map),

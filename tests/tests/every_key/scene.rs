@@ -13,8 +13,8 @@ use npr_render::{
     Picture, Renderer, RendererOptions, Smoke, Sphere, apply_id_maps,
 };
 use npr_scene::{
-    Image, Light, LightKind, Material, Node, Scene, Skin, TextureTransform, TextureUse, Transform,
-    Wrap,
+    Image, Light, LightKind, Material, Node, OutlineWidth, Scene, Skin, TextureTransform,
+    TextureUse, Toon, ToonOutline, Transform, Wrap,
 };
 use npr_stylesheet::{Background, LineForm, Stated, Style};
 use npr_tests::{Object, boxed, placed, scene_of};
@@ -242,6 +242,14 @@ fn scene() -> Scene {
         wrap: [Wrap::Repeat; 2],
         transform: TextureTransform::default(),
     });
+    scene.materials[0].toon = Some(Box::new(Toon {
+        shade_color: [0.2, 0.1, 0.4],
+        outline: ToonOutline {
+            width: Some(OutlineWidth::Screen(0.02)),
+            ..ToonOutline::default()
+        },
+        ..Toon::default()
+    }));
     scene.lights = vec![Light {
         name: "Sun".to_owned(),
         kind: LightKind::Directional,

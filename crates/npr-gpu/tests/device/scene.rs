@@ -136,7 +136,7 @@ impl Scene {
             ..part(3, Part::BEAM, NONE)
         };
         scene.add(&torus(16, 8, 0.9, 0.25), beam, &mut random);
-        // A ring before the others whose toon material has every picture.
+        // A ring beside the others whose toon material has every picture.
         let words: Vec<u32> = bytemuck::cast_slice(&[toon(texture)]).to_vec();
         let toon = Part {
             toon: scene.texels.len() as u32,
@@ -147,8 +147,8 @@ impl Scene {
             )
         };
         scene.texels.extend(words);
-        let ring = mapped(&torus(14, 9, 0.5, 0.2), |[x, y, z]| {
-            [x + 0.5, y - 0.3, z + 1.0]
+        let ring = mapped(&torus(14, 9, 0.35, 0.15), |[x, y, z]| {
+            [x - 0.8, y - 0.9, z + 0.9]
         });
         scene.add(&ring, toon, &mut random);
         // Lay the tiles of strokes across the scene, each triangle a little off its place.
@@ -303,6 +303,7 @@ fn toon(texture: u32) -> Toon {
         shift: -0.1,
         shift_scale: 0.3,
         gi_equalization: 0.4,
+        base_map: map(5.0),
         shade_map: map(0.0),
         shift_map: map(1.0),
         rim_map: map(2.0),
@@ -457,7 +458,7 @@ pub fn rules(look: Look) -> Rules {
     rules
 }
 
-/// A subject for either surface; the beam is of none, and neither is the ring before them.
+/// A subject for either surface; the beam is of none, and neither is the ring beside them.
 pub fn part_subjects() -> [PartSubject; 4] {
     [(1, 1), (2, 2), (0, 0), (0, 0)].map(|(subject, rule)| PartSubject { subject, rule })
 }
