@@ -124,11 +124,14 @@ fn toon_paint(triangle: Triangle, corners: Corners, px: vec2<f32>, is_hull: bool
 
 // Light of a sky, equalised as far as the material asks for.
 fn toon_sky(toon: u32, source: LightSource, normal: vec3<f32>, open: Openness) -> vec3<f32> {
-    let above = sky_light(source, vec3<f32>(0.0, 1.0, 0.0), open).color;
-    let below = sky_light(source, vec3<f32>(0.0, -1.0, 0.0), open).color;
-    let even = (above + below) * 0.5;
-    let here = sky_light(source, normal, open).color;
-    return here + (even - here) * toon_number(toon, TOON_SHIFT + 2u);
+    // Ask for one direction after the other by the same code, which takes long to compile.
+    var light = array<vec3<f32>, 3>();
+    for (var i = 0u; i < 3u; i++) {
+        let upright = vec3<f32>(0.0, select(1.0, -1.0, i == 1u), 0.0);
+        light[i] = sky_light(source, select(upright, normal, i == 2u), open).color;
+    }
+    let even = (light[0] + light[1]) * 0.5;
+    return light[2] + (even - light[2]) * toon_number(toon, TOON_SHIFT + 2u);
 }
 
 // Light of a toon at `world` with the normal `normal`, in the shadow of the lights in `dark`, that sees `open` of the
@@ -179,16 +182,19 @@ fn toon_light(
     return sum + added * paint.rim * share + paint.emissive;
 }
 
-// Light of a toon's outline on its hull at a point of the frame.
-fn toon_outline(triangle: Triangle, corners: Corners, px: vec2<f32>) -> vec3<f32> {
-    let toon = parts[triangle.part].toon;
-    let color = toon_color(toon, TOON_OUTLINE);
+// Weights of a triangle's corners at a point of the frame, or on a toon's hull those of its nearest point.
+fn toon_weights(corners: Corners, px: vec2<f32>, is_hull: bool) -> vec3<f32> {
+    return line_weights(corners, px, is_hull);
+}
+
+// Whether light falls on the outline of a toon.
+fn is_toon_line_lit(part: u32) -> bool {
+    return toon_number(parts[part].toon, TOON_OUTLINE + 3u) != 0.0;
+}
+
+// Light of a toon's outline on its hull, where `light` is that of the toon there.
+fn toon_outline(part: u32, light: vec3<f32>) -> vec3<f32> {
+    let toon = parts[part].toon;
     let share = toon_number(toon, TOON_OUTLINE + 3u);
-    if share == 0.0 { return color; }
-    let paint = toon_paint(triangle, corners, px, true);
-    let weights = line_weights(corners, px, true);
-    // Hulls show the backs of faces, but their outline is at the front.
-    let normal = normal_of(corners, weights) * corners.side;
-    let light = toon_light(triangle.part, paint, world_of(corners, weights), normal, 0u, Openness(1.0, 1.0));
-    return color * (vec3<f32>(1.0) + (light - vec3<f32>(1.0)) * share);
+    return toon_color(toon, TOON_OUTLINE) * (vec3<f32>(1.0) + (light - vec3<f32>(1.0)) * share);
 }

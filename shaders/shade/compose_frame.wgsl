@@ -95,14 +95,17 @@ fn shade(id: u32, constants: TriangleConstants, members: u32, frame_px: vec2<f32
     var drawn: Drawn;
     drawn.lined = 1.0;
     var center = frame_px;
-    if !is_hull {
-        center = middle_of(members, frame_px);
-        drawn = shade_surface(id, triangle, constants, members, frame_px, center, corners);
+    if !is_hull { center = middle_of(members, frame_px); }
+    let is_toon_hull = is_hull && has_toon_line(triangle.part);
+    // Light hulls of toons by the same code as surfaces: twice it takes too long to compile.
+    let is_lit_hull = is_toon_hull && is_toon_line_lit(triangle.part);
+    if !is_hull || is_lit_hull {
+        drawn = shade_surface(id, triangle, constants, members, frame_px, center, corners, is_lit_hull);
     }
     if drawn.lined != 0.0 {
         var own = vec3<f32>(0.0);
-        if is_hull && has_toon_line(triangle.part) {
-            own = toon_outline(triangle, corners, center);
+        if is_toon_hull {
+            own = toon_outline(triangle.part, drawn.light);
         } else {
             own = line_light(triangle, corners, center, vec2<f32>(1.0), is_hull);
         }
@@ -112,7 +115,7 @@ fn shade(id: u32, constants: TriangleConstants, members: u32, frame_px: vec2<f32
     return drawn.light;
 }
 
-// Light of a triangle; `center` is the middle of its samples.
+// Light of a triangle, or of a toon's hull; `center` is the middle of its samples.
 fn shade_surface(
     id: u32,
     triangle: Triangle,
@@ -121,17 +124,18 @@ fn shade_surface(
     frame_px: vec2<f32>,
     center: vec2<f32>,
     corners: Corners,
+    is_hull: bool,
 ) -> Drawn {
     // Take what is known of the triangle, and find the colour of the surface where it is not.
     let part = triangle.part;
     let is_plain = (constants.bits & KNOWN_PLAIN) != 0u;
-    let is_even = (constants.bits & KNOWN_EVEN) != 0u;
-    let is_toon = is_toon(part);
+    let is_even = (constants.bits & KNOWN_EVEN) != 0u && !is_hull;
+    let is_toon = is_toon(part) || is_hull;
     var color = constants.color;
     var paint: ToonPaint;
     if is_toon {
         color = vec3<f32>(1.0);
-        paint = toon_paint(triangle, corners, center, false);
+        paint = toon_paint(triangle, corners, center, is_hull);
     } else if !is_plain {
         color = strengthened(base_color(triangle, corners, center));
     }
@@ -140,11 +144,11 @@ fn shade_surface(
     // shadows there.
     var light = select(constants.color, vec3<f32>(1.0), is_plain);
     var open: SkyPoint;
-    if !is_even { open = openness(corners, center); }
+    if !is_even && !is_hull { open = openness(corners, center); }
     let first = members & (~members + 1u);
     let is_gentle = is_gentle(part);
     let shines = has_highlights(part) && (constants.bits & KNOWN_MATT) == 0u;
-    let by_sample = !(is_even || is_gentle) || (shines && !shines_gently(part));
+    let by_sample = !is_hull && (!(is_even || is_gentle) || (shines && !shines_gently(part)));
     let counted = select(first, members, by_sample);
     let share = 1.0 / f32(countOneBits(counted));
     var gloss = vec3<f32>(0.0);
@@ -157,13 +161,15 @@ fn shade_surface(
     loop {
         let i = firstTrailingBit(left);
         let at = select(center, frame_px + sample_offset(i), by_sample);
-        let weights = weights_at(corners.clip, ndc_at(view, at));
+        let weights = toon_weights(corners, at, is_hull);
         let world = world_of(corners, weights);
-        let normal = normal_of(corners, weights);
+        // Hulls show the backs of faces, but their outline is at the front.
+        let normal = normal_of(corners, weights) * select(1.0, corners.side, is_hull);
         var dark = 0u;
         if !is_even {
-            if !is_gentle { dark = shadowed(id, corners, weights); }
-            let open_here = open_at(open, at - center);
+            if !is_gentle && !is_hull { dark = shadowed(id, corners, weights); }
+            var open_here = Openness(1.0, 1.0);
+            if !is_hull { open_here = open_at(open, at - center); }
             if is_toon { toon += toon_light(part, paint, world, normal, dark, open_here) * share; }
             let lit = coordinate_under(world, normal, dark, open_here);
             tones = with_sample(tones, i, lit.x);
@@ -200,6 +206,7 @@ fn shade_surface(
         if (parts[part].flags & PART_UNLIT) != 0u { light = vec3<f32>(1.0); }
     }
     if is_toon { light = toon; }
+    if is_hull { return Drawn(light, 1.0); }
 
     // Lay ink over it, once for samples in the same shadows.
     let ink = mean_ink(id, corners, known_ink(constants), center, counted, darks);

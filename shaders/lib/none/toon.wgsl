@@ -27,6 +27,14 @@ fn toon_light(
     return vec3<f32>(0.0);
 }
 
-fn toon_outline(triangle: Triangle, corners: Corners, px: vec2<f32>) -> vec3<f32> {
+fn toon_weights(corners: Corners, px: vec2<f32>, is_hull: bool) -> vec3<f32> {
+    return weights_at(corners.clip, ndc_at(view, px));
+}
+
+fn is_toon_line_lit(part: u32) -> bool {
+    return false;
+}
+
+fn toon_outline(part: u32, light: vec3<f32>) -> vec3<f32> {
     return vec3<f32>(0.0);
 }
