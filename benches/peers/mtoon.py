@@ -193,8 +193,9 @@ def main():
     print(f"- code: {commit}, preset mtoon, on the processor")
     print(f"- beside: {PACKAGES[1]} with {version}, in headless Chromium with WebGL in software")
     print("- %dx%d pixels, a lens of %d degrees, one white light from %s, no background\n" % (*SIZE, FOV, LIGHT))
-    print("CIEDE2000 of pixels that both pictures cover whole, their mean over each view; 1 is the least that people see.")
-    print("`edge`: pixels that one figure covers and the other does not, as a share of both.\n")
+    print("CIEDE2000 of pixels that both pictures cover whole, their mean over each view; people see 1 at the least.")
+    print("`edge`: pixels that one figure covers and the other does not, as a share of both; three-vrm draws outlines")
+    print("of VRM 1.0 half as wide as its specification has them.\n")
     print("| model | " + " | ".join(VIEWS) + " | mean | worst | edge |")
     print("|---|" + "---|" * (len(VIEWS) + 3))
     rows = []

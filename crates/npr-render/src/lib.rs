@@ -54,6 +54,7 @@ mod manners;
 mod model;
 mod options;
 mod part_info;
+mod part_toon;
 mod pictures;
 mod placement;
 mod puffs;

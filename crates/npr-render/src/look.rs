@@ -11,7 +11,7 @@ use crate::options::RendererOptions;
 use crate::part_info::PartInfo;
 use crate::pictures::{Pictures, add_tone_rows};
 use crate::sky::SkyMaps;
-use crate::toon::{add_toons, has_toon_widths_alone, outline_share};
+use crate::toon::{LineMeasure, add_toons, has_toon_widths_alone, outline_share};
 use glam::Vec3;
 use npr_core::camera::Camera;
 use npr_core::color::{pack_rgba8, srgb_from_linear};
@@ -82,7 +82,12 @@ impl StyledModel {
             world_px,
         };
         add_tone_rows(model, style, &pictures, &mut parts, &mut textures)?;
-        add_toons(model, style, options, &mut parts, &mut textures);
+        let height = options.size[1];
+        let measure = LineMeasure {
+            height_px: height as f32,
+            base_width: outline(style, model.radius(), height, options.dpi, 0).base_width,
+        };
+        add_toons(model, style, measure, &mut parts, &mut textures);
         add_line_colors(
             &model.parts,
             style,

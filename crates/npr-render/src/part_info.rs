@@ -1,6 +1,6 @@
 //! What a model knows of each of its surfaces, before a style is applied.
 
-use crate::toon::PartToon;
+use crate::part_toon::PartToon;
 use npr_core::geometry::NONE;
 use npr_scene::{AlphaMode, Material, Scene};
 use npr_stylesheet::{Look, PartNames, Style};

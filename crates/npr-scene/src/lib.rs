@@ -23,6 +23,7 @@
 //! planned, trees are walked without recursion, and other files are reached only through
 //! [`Resources`], which [`FolderResources`] confines to the scene's own folder.
 
+mod alpha;
 mod bending;
 mod bone;
 mod camera;
@@ -71,6 +72,7 @@ mod transform;
 mod uri;
 mod words;
 
+pub use alpha::AlphaMode;
 pub use bone::Bone;
 pub use camera::{Camera, Projection};
 pub use clip::{Channel, Clip, Interpolation, Property};
@@ -84,7 +86,7 @@ pub use laid::{TextureTransform, TextureUse, Wrap};
 pub use light::{Light, LightKind};
 pub use limits::{LimitError, Limits};
 pub use load::{LoadOptions, load, load_bytes};
-pub use material::{AlphaMode, Material};
+pub use material::Material;
 pub use matrix::Matrix;
 pub use mesh::{Mesh, POSITION_LIMIT, Part};
 pub use morph::{Morph, Unmorphed};

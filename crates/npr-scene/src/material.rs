@@ -1,5 +1,6 @@
 //! Materials, as far as drawings use them.
 
+use crate::alpha::AlphaMode;
 use crate::laid::TextureUse;
 use crate::toon::Toon;
 
@@ -47,15 +48,4 @@ impl Default for Material {
             toon: None,
         }
     }
-}
-
-/// What a material's alpha means.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum AlphaMode {
-    /// Alpha is ignored.
-    Opaque,
-    /// Pixels below this alpha are not drawn, the others are opaque.
-    Mask(f32),
-    /// Alpha is coverage.
-    Blend,
 }

@@ -2,8 +2,8 @@
 //!
 //! The terms are those of MToon [VRMC_materials_mtoon-1.0]; values of VRM 0.x are converted to them.
 
+use crate::alpha::AlphaMode;
 use crate::laid::TextureUse;
-use crate::material::AlphaMode;
 
 /// How a material is drawn as a toon, beside its base colour. All colours are linear light.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,7 +1,7 @@
 //! Figures: expressions, poses and motions by their names and files, and what is said of them.
 
 use crate::workplace::{Outcome, Workplace};
-use npr_scene::testing::{Vrm, avatar, gesture, wing};
+use npr_scene::testing::{Vrm, avatar, gesture, glb, picture, wing};
 
 const BOW: &[u8] = br#"{"pose":{"spine":{"rotation":[0.5,0,0,0.8]}}}"#;
 
@@ -319,4 +319,84 @@ fn bones_and_expressions_are_listed() {
         "expression 'blink' (in the file 'Blink') binds 1 morph, binary",
     );
     listed("wave.vrma", "expression 'blink' moves with the clips");
+}
+
+/// A triangle whose picture passes by once a second.
+fn flowing() -> Vec<u8> {
+    let places = [[0f32, 0., 0.], [1., 0., 0.], [0., 1., 0.]];
+    let uvs = [[0f32, 0.], [1., 0.], [0., 1.]];
+    let numbers = places.as_flattened().iter().chain(uvs.as_flattened());
+    let mut bin: Vec<u8> = numbers.flat_map(|number| number.to_le_bytes()).collect();
+    let png = picture([2, 1], &[[200, 40, 40, 255], [40, 40, 200, 255]]);
+    let length = png.len();
+    bin.extend(png);
+    let json = format!(
+        r#"{{"asset":{{"version":"2.0"}},"scenes":[{{"nodes":[0]}}],"nodes":[{{"name":"flag","mesh":0}}],
+        "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0,"TEXCOORD_0":1}},"material":0}}]}}],
+        "accessors":[{{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}},
+        {{"bufferView":1,"componentType":5126,"count":3,"type":"VEC2"}}],
+        "bufferViews":[{{"buffer":0,"byteLength":36}},{{"buffer":0,"byteOffset":36,"byteLength":24}},
+        {{"buffer":0,"byteOffset":60,"byteLength":{length}}}],
+        "buffers":[{{"byteLength":{}}}],"images":[{{"bufferView":2,"mimeType":"image/png"}}],
+        "textures":[{{"source":0}}],"extensionsUsed":["VRMC_materials_mtoon"],
+        "materials":[{{"doubleSided":true,"pbrMetallicRoughness":{{"baseColorTexture":{{"index":0}}}},
+        "extensions":{{"VRMC_materials_mtoon":{{"specVersion":"1.0","shadeColorFactor":[1,1,1],
+        "shadeMultiplyTexture":{{"index":0}},"uvAnimationScrollXSpeedFactor":1}}}}}}]}}"#,
+        bin.len()
+    );
+    glb(&json, &bin)
+}
+
+#[test]
+fn pictures_that_move_do_so_in_styles_that_let_them() {
+    let place = place();
+    place.put("flag.glb", &flowing());
+    let at = |time: &str, style: &str| {
+        let more = ["--style", style, "--time", time];
+        drawn(&place, "render", "flag.glb", &more)
+    };
+    let (start, said) = at("0", "mtoon");
+    assert_eq!(said, "");
+    assert_ne!(at("0.5", "mtoon").0, start, "half a picture later");
+    assert_eq!(at("1", "mtoon").0, start, "the picture again");
+    let (still, said) = at("0.5", "toon");
+    assert_eq!(
+        said,
+        "npr: warning: --time is ignored: the scene has no clips"
+    );
+    assert_eq!(still, at("0", "toon").0);
+
+    // Films of them need no clip, and a time holds them.
+    let film = |more: &[&str]| {
+        let line = [
+            "animate",
+            "flag.glb",
+            "-o",
+            "f_#.png",
+            "--frames",
+            "0..1",
+            "--fps",
+            "2",
+            "--size",
+            "64x96",
+            "--backend",
+            "cpu",
+        ];
+        place.npr(&[&line, more].concat())
+    };
+    let outcome = film(&["--style", "mtoon"]);
+    assert_eq!(outcome.code, Some(0), "{}", outcome.stderr);
+    assert_ne!(place.get("f_0.png"), place.get("f_1.png"));
+    for more in [
+        &["--style", "toon"][..],
+        &["--style", "mtoon", "--time", "0"],
+    ] {
+        let outcome = film(more);
+        assert_eq!(outcome.code, Some(2), "{more:?}");
+        assert!(
+            outcome.stderr.contains("nothing moves"),
+            "{}",
+            outcome.stderr
+        );
+    }
 }

@@ -20,9 +20,10 @@ use serde_json::Value;
 use super::accessor::Accessors;
 use super::texture::{Textures, info_uv_set};
 use super::toon;
+use crate::alpha::AlphaMode;
 use crate::error::SceneError;
 use crate::loading::Loading;
-use crate::material::{AlphaMode, Material};
+use crate::material::Material;
 use crate::scene::Scene;
 
 /// Reads all materials, and the base colour images of those that parts use.
@@ -52,7 +53,7 @@ pub(crate) fn read(
                 loading,
                 material: index,
                 is_used,
-                uv_set: toon::base_uv_set(source),
+                uv_set: base_uv_set(source),
             };
             if let Some(beside) = &said.beside {
                 if material.base_color == [1.0; 4] {
@@ -75,10 +76,14 @@ pub(crate) fn read(
 pub(crate) fn uv_set(root: &Root, primitive: &Primitive) -> u32 {
     let index = primitive.material.as_ref().map(Index::value);
     let material = index.and_then(|index| root.materials.get(index));
-    material.and_then(base_color_info).map_or(0, info_uv_set)
+    material.map_or(0, base_uv_set)
 }
 
-pub(super) fn base_color_info(material: &JsonMaterial) -> Option<&Info> {
+fn base_uv_set(material: &JsonMaterial) -> u32 {
+    base_color_info(material).map_or(0, info_uv_set)
+}
+
+fn base_color_info(material: &JsonMaterial) -> Option<&Info> {
     let extensions = material.extensions.as_ref();
     match extensions.and_then(|extensions| extensions.pbr_specular_glossiness.as_ref()) {
         Some(specular) => specular.diffuse_texture.as_ref(),

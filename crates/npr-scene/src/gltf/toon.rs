@@ -13,9 +13,9 @@ use ::gltf::json::texture::Info;
 use npr_core::decoding::guard;
 use serde_json::{Map, Value};
 
-use super::material::base_color_info;
 use super::texture::{Textures, info_uv_set};
 use super::toon_0;
+use crate::alpha::AlphaMode;
 use crate::error::SceneError;
 use crate::laid::TextureUse;
 use crate::loading::Loading;
@@ -86,11 +86,14 @@ pub(crate) fn read(
         Some(beside) => images.named(beside.emissive_texture.as_ref())?,
         None => images.laid(source.emissive_texture.as_ref())?,
     };
-    if source.normal_texture.is_some() {
-        images
-            .loading
-            .notices
-            .add("normal textures of toon materials are not drawn");
+    let alpha = beside.map_or(material.alpha, |beside| beside.alpha);
+    let has_normals = beside.is_some_and(|beside| beside.has_normals);
+    let notices = &mut images.loading.notices;
+    if has_normals || source.normal_texture.is_some() {
+        notices.add("normal textures of toon materials are not drawn");
+    }
+    if alpha == AlphaMode::Blend {
+        notices.add("toon materials that blend are cut out");
     }
     let usual = Toon::default();
     let said = &said.mtoon;
@@ -127,7 +130,7 @@ pub(crate) fn read(
         },
         render_queue_offset: offset.unwrap_or(0).clamp(-9, 9) as i32,
         blends_with_depth: said.get("transparentWithZWrite").and_then(Value::as_bool) == Some(true),
-        alpha: beside.map_or(material.alpha, |beside| beside.alpha),
+        alpha,
         double_sided: beside.map_or(material.double_sided, |beside| beside.double_sided),
         flow: UvFlow {
             scroll: [
@@ -206,11 +209,6 @@ impl Images<'_, '_, '_, '_> {
         }
         info
     }
-}
-
-/// The set of coordinates that the base colour of a material lies by.
-pub(crate) fn base_uv_set(source: &JsonMaterial) -> u32 {
-    base_color_info(source).map_or(0, info_uv_set)
 }
 
 fn outline_width(said: &Map<String, Value>) -> Option<OutlineWidth> {

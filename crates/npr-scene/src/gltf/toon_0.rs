@@ -11,7 +11,7 @@ use npr_core::math;
 use serde_json::{Map, Value, json};
 
 use super::vrm::extension;
-use crate::material::AlphaMode;
+use crate::alpha::AlphaMode;
 use crate::posture::numbers;
 
 /// The shader of toon materials.
@@ -32,6 +32,8 @@ pub(crate) struct Beside {
     pub(crate) emissive_texture: Option<Value>,
     pub(crate) alpha: AlphaMode,
     pub(crate) double_sided: bool,
+    /// Whether it has a normal texture.
+    pub(crate) has_normals: bool,
 }
 
 /// What a file of VRM 0.x says of material `index`; none where it is no toon.
@@ -148,6 +150,7 @@ impl Properties<'_> {
             emissive_texture: self.texture("_EmissionMap"),
             alpha,
             double_sided: self.number("_CullMode", 2.0) == 0.0,
+            has_normals: self.texture("_BumpMap").is_some(),
         }
     }
 }

@@ -11,12 +11,13 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use npr_core::color::linear_from_srgb;
 
+use crate::alpha::AlphaMode;
 use crate::decode::{self, DecodeFault};
 use crate::error::SceneError;
 use crate::image::Image;
 use crate::laid::{TextureTransform, TextureUse, Wrap};
 use crate::loading::Loading;
-use crate::material::{AlphaMode, Material};
+use crate::material::Material;
 use crate::pool::Pool;
 use crate::shown::shown;
 use crate::words::{number, numbered_lines, triple, words};

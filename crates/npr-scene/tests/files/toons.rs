@@ -146,7 +146,7 @@ fn values_of_version_0_are_converted() {
     // Hardness 0.8 moved a quarter of the way to 1, and a shift of 0.5 less what was cut off.
     assert!((toon.shading_toony - 0.85).abs() < 1e-6, "{toon:?}");
     assert!((toon.shading_shift - 0.35).abs() < 1e-6, "{toon:?}");
-    let half = 0.5f32.powf(2.2);
+    let half = npr_core::math::powf(0.5, 2.2);
     assert!((toon.shade_color[0] - half).abs() < 1e-6 && toon.shade_color[2] == 0.0);
     assert!((toon.emissive[0] - half).abs() < 1e-6);
     assert!((material.base_color[0] - half).abs() < 1e-6 && material.base_color[3] == 0.8);
@@ -189,6 +189,16 @@ fn broken_images_and_strange_values_are_left_out_and_told() {
         assert_eq!(toon_of(&scene).shade_texture, None);
         assert_eq!(told(&scene), [notice]);
     }
+
+    // What is not drawn is told.
+    let scene = load(&of_0(
+        r#","keywordMap":{"_ALPHABLEND_ON":true},"textureProperties":{"_BumpMap":0}"#,
+    ));
+    let not_drawn = [
+        "normal textures of toon materials are not drawn",
+        "toon materials that blend are cut out",
+    ];
+    assert_eq!(told(&scene), not_drawn);
 
     // Numbers are held within what can be computed with.
     let scene = load(&of_1(
