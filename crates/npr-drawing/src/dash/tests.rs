@@ -50,7 +50,8 @@ fn an_unstretched_pattern_begins_at_the_start_and_breaks_off() {
     assert_eq!(cut(&[4.0, 0.0, 4.0, 7.0]), [[0, 800], [1500, 2300]]);
 }
 
-/// Dashes that lie by the texture, of a straight line whose `u` has these values at its start, after 30 % and at its end.
+/// Dashes that lie by the texture, of a straight line whose `u` has these values at its start, after 30 % of it and at
+/// its end.
 fn by_texture(length: f64, pattern_px: &[f64], u: [f64; 3]) -> Vec<[i64; 2]> {
     let dash = Dash {
         pattern_px: pattern_px.to_vec(),
