@@ -62,6 +62,12 @@ impl Measured {
         self.along.last().copied().unwrap_or_default()
     }
 
+    /// All pieces between two points: the ways from the start to both, and the texture coordinates there.
+    pub fn pieces(&self) -> impl Iterator<Item = ([f64; 2], [f64; 2])> {
+        let ends = self.along.windows(2).zip(self.points.windows(2));
+        ends.map(|(ways, points)| ([ways[0], ways[1]], [points[0].u, points[1].u]))
+    }
+
     /// The point `way` pixels from the start; an end for ways beyond it.
     pub fn at(&self, way: f64) -> StrokePoint {
         let next = self.along.partition_point(|along| *along <= way);

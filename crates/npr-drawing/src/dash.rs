@@ -13,6 +13,12 @@ const DOT_PX: f64 = 0.1;
 /// Distance, in pixels, under which two dashes are one, and under which a dash cut off at an end is none.
 const TOO_NEAR_PX: f64 = 1e-3;
 
+/// Most pixels of texture on a pixel of a stroke that are dashed: more of it is a seam between two textures.
+const SQUEEZED_MOST: f64 = 2.0;
+
+/// Length of the longest seam that ink goes on through, in pixels.
+const SEAM_MOST_PX: f64 = 1.0;
+
 /// How strokes are cut into dashes.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Dash {
@@ -22,6 +28,9 @@ pub struct Dash {
     /// Whether the pattern is stretched to end where strokes do: open ones then begin and end with half of the first
     /// dash, and rings have a whole number of patterns.
     pub fit: bool,
+    /// Whether a pattern that is not stretched lies at multiples of its length in the texture coordinate `u`, so that
+    /// dashes hold where `u` does; else it begins where strokes do.
+    pub by_texture: bool,
 }
 
 impl Dash {
@@ -54,9 +63,10 @@ impl Dash {
     fn cut(&self, stroke: &Stroke) -> Option<Vec<Stroke>> {
         let (pairs, period) = self.period()?;
         let line = Measured::new(stroke).filter(|line| line.length() >= period)?;
-        let inked = match self.fit {
-            true => fitted(&pairs, period, &line),
-            false => from_start(&pairs, &line),
+        let inked = match (self.fit, self.by_texture) {
+            (true, _) => fitted(&pairs, period, &line),
+            (false, true) => along_texture(&pairs, period, &line),
+            (false, false) => from_start(&pairs, &line),
         };
         let dashes = inked.into_iter().map(|[from, to]| Stroke {
             points: line.part(from, to),
@@ -76,8 +86,9 @@ impl Dash {
         if !has_course(length) {
             return own;
         }
-        // Stretched patterns are shorter by a third at most.
-        let periods = (1.5 * length / period) as u64 + 2;
+        // Stretched patterns are shorter by a third at most, those along a texture by half.
+        let most = if self.by_texture { SQUEEZED_MOST } else { 1.5 };
+        let periods = (most * length / period) as u64 + 2;
         own + periods * 2 * pairs.len() as u64
     }
 }
@@ -150,6 +161,53 @@ fn from_start(pairs: &[[f64; 2]], line: &Measured) -> Vec<[f64; 2]> {
     inked.on(line)
 }
 
+/// Where a line is inked if the pattern begins where its texture coordinate is 0. Ink, or none, goes on through seams
+/// between two textures.
+fn along_texture(pairs: &[[f64; 2]], period: f64, line: &Measured) -> Vec<[f64; 2]> {
+    // Ink each piece by itself.
+    let mut ranges: Vec<[f64; 2]> = Vec::new();
+    let mut seams: Vec<[f64; 2]> = Vec::new();
+    for ([from, to], [start, end]) in line.pieces() {
+        let (length, span) = (to - from, end - start);
+        let is_even = span.abs() <= SQUEEZED_MOST * length && span != 0.0 && start.abs() < 1e9;
+        if !is_even {
+            seams.push([from, to]);
+            continue;
+        }
+        let way_of = |u: f64| from + (u - start) / span * length;
+        let (low, high) = (start.min(end), start.max(end));
+        let mut number = (low / period).floor() - 1.0;
+        while number * period < high {
+            let mut at = number * period;
+            for [ink, gap] in pairs {
+                let is_dot = *ink < DOT_PX;
+                let [a, b] = [at.max(low), (at + ink).min(high)];
+                if a < b || is_dot && low <= at && at < high {
+                    let [a, b] = if is_dot { [at, at] } else { [a, b] }.map(way_of);
+                    ranges.push([a.min(b), a.max(b)]);
+                }
+                at += ink + gap;
+            }
+            number += 1.0;
+        }
+    }
+
+    // Go on through seams where ink comes up to them.
+    for [from, to] in seams {
+        let touches =
+            |range: &&mut [f64; 2]| (range[1] - from).abs() <= TOO_NEAR_PX && range[1] > range[0];
+        if to - from <= SEAM_MOST_PX
+            && let Some(range) = ranges.iter_mut().find(touches)
+        {
+            range[1] = to;
+        }
+    }
+    ranges.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    let mut inked = Inked::default();
+    ranges.iter().for_each(|[from, to]| inked.add(*from, *to));
+    inked.on(line)
+}
+
 /// Ranges of ink in order, of which none touches the one before.
 #[derive(Debug, Default)]
 struct Inked(Vec<[f64; 2]>);
@@ -157,7 +215,7 @@ struct Inked(Vec<[f64; 2]>);
 impl Inked {
     fn add(&mut self, from: f64, to: f64) {
         match self.0.last_mut() {
-            Some(last) if from <= last[1] + TOO_NEAR_PX => last[1] = to,
+            Some(last) if from <= last[1] + TOO_NEAR_PX => last[1] = last[1].max(to),
             _ => self.0.push([from, to]),
         }
     }

@@ -53,6 +53,9 @@ const AHEAD_PX: f64 = 4096.0;
 /// The number of the chance that decides it; those of ends and of the sway are others.
 const AHEAD_NUMBER: u32 = u32::MAX;
 
+/// Farthest from where its texture begins that a line starts and sways by it, in pixels.
+const FARTHEST_PX: f64 = 1e7;
+
 /// Most copies of a stroke.
 pub const COPIES_MAX: u32 = 8;
 
@@ -67,6 +70,9 @@ pub struct Hand {
     pub copies: u32,
     /// Greatest distance, in pixels, of copies from the line, before they sway.
     pub spread_px: f64,
+    /// Whether an open line sways by where its texture coordinate `u` is 0, so that its waves hold where `u` does; else
+    /// by where it starts.
+    pub by_texture: bool,
 }
 
 impl Hand {
@@ -154,7 +160,9 @@ pub fn draw_by_hand<'a>(
         .map(|((stroke, length), hand)| {
             let hand = hand.filter(|hand| hand.sways() && has_course(*length))?;
             let seed = Seed::new(stroke.id, 0);
-            Some(Sway::new(hand, *length, seed, stroke.closed))
+            let first = stroke.points.first().filter(|_| hand.by_texture);
+            let from = first.map_or(0.0, |first| first.u);
+            Some(Sway::new(hand, (from, *length), seed, stroke.closed))
         })
         .collect();
     let ends = match sways.iter().any(Option::is_some) {
@@ -253,7 +261,7 @@ impl Hand {
         // Lay it beside the line, and let it sway.
         let sway = self
             .sways()
-            .then(|| Sway::new(self, course.length(), seed, false));
+            .then(|| Sway::new(self, (0.0, course.length()), seed, false));
         let beside = [2, 4].map(|number| {
             let far = spread * seed.between(number, LEAST_SPREAD, 1.0);
             seed.direction(number + 1).map(|part| part * far)
@@ -308,11 +316,13 @@ struct Sway {
 const FIRST_KNOT: u32 = 16;
 
 impl Sway {
-    /// That of a stroke `length` long; with `comes_back` it ends as it began.
-    fn new(hand: &Hand, length: f64, seed: Seed, comes_back: bool) -> Self {
+    /// That of a stroke `length` long, which starts at `from` in its waves; with `comes_back` it ends as it began,
+    /// and starts where they do.
+    fn new(hand: &Hand, (from, length): (f64, f64), seed: Seed, comes_back: bool) -> Self {
         let spacing = hand.wave() / KNOTS_PER_WAVE;
-        let coarse = Spline::new(length, spacing, seed, (0, comes_back));
-        let fine = Spline::new(length, 0.5 * coarse.spacing, seed, (1, comes_back));
+        let from = if from.abs() < FARTHEST_PX { from } else { 0.0 };
+        let coarse = Spline::new((from, length), spacing, seed, (0, comes_back));
+        let fine = Spline::new((from, length), 0.5 * coarse.spacing, seed, (1, comes_back));
         Self {
             px: hand.wobble_px.min(SWAY_SHARE * length),
             length,
@@ -349,14 +359,26 @@ impl Sway {
 struct Spline {
     /// Pixels from knot to knot.
     spacing: f64,
+    /// Pixels from the first knot to the start.
+    before: f64,
     knots: Vec<[f64; 2]>,
 }
 
 impl Spline {
-    fn new(length: f64, spacing: f64, seed: Seed, (octave, comes_back): (u32, bool)) -> Self {
+    fn new(
+        (from, length): (f64, f64),
+        spacing: f64,
+        seed: Seed,
+        (octave, comes_back): (u32, bool),
+    ) -> Self {
+        // A ring has a whole number of knots, and the first at its start.
+        let [first, before] = match comes_back {
+            true => [0.0; 2],
+            false => [(from / spacing).floor(), from.rem_euclid(spacing)],
+        };
         let count = match comes_back {
             true => (length / spacing).round().max(3.0),
-            false => (length / spacing).ceil() + 1.0,
+            false => ((before + length) / spacing).ceil() + 1.0,
         };
         let spacing = match comes_back {
             true => length / count,
@@ -366,16 +388,18 @@ impl Spline {
         let count = count as u32;
         let knot = |i: u32| {
             let number = if comes_back { i % count } else { i };
-            seed.direction(FIRST_KNOT + 2 * number + octave)
+            let number = number.wrapping_add(first as i64 as u32);
+            seed.direction(number.wrapping_mul(2).wrapping_add(FIRST_KNOT + octave))
         };
         Self {
             spacing,
+            before,
             knots: (0..count + 3).map(knot).collect(),
         }
     }
 
     fn at(&self, way: f64) -> [f64; 2] {
-        let place = (way / self.spacing).max(0.0);
+        let place = ((self.before + way) / self.spacing).max(0.0);
         let first = (place as usize).min(self.knots.len() - 4);
         let t = (place - first as f64).clamp(0.0, 1.0);
         let s = 1.0 - t;

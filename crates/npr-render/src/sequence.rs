@@ -29,8 +29,8 @@ impl From<Camera> for Shot {
 }
 
 impl<'a> Renderer<'a> {
-    /// Draws a sequence, a frame for every shot that is not passed, in their order: the same frames as [`Self::set_smoke`] and
-    /// [`Self::draw`] give one after the other.
+    /// Draws a sequence, a frame for every shot that is not passed, in their order: the same frames as
+    /// [`Self::set_smoke`] and [`Self::draw`] give one after the other.
     ///
     /// A device works on a frame while the caller does something with the one before: two frames are under way at
     /// once. The processor waits for no more than what is left of a frame, and the device not at all where the caller

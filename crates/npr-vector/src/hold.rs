@@ -3,8 +3,8 @@
 //!
 //! [`remembered`] keeps samples of a frame's strokes by their place on the surface, and finds them again in the next
 //! view. Every sample of a new stroke votes with the remembered one that it is ([`votes`]): for a way to run, for an
-//! identity ([`identity`]), which also keeps its place in the order ([`order`]), and for a shift of the texture coordinate ([`phase`]). Closed strokes start where they did
-//! ([`seam`]).
+//! identity ([`identity`]), which also keeps its place in the order ([`order`]), and for a shift of the texture
+//! coordinate ([`phase`]). Closed strokes start where they did ([`seam`]).
 //!
 //! Differs: the paper fits a slope to the votes of a run, too; here a pixel along a stroke stays a pixel of its
 //! texture, so that dashes and stamps never stretch. Where parts of one stroke had textures of their own these stay,
@@ -67,7 +67,7 @@ impl HeldStrokes {
     /// `shape` is the surface in the pose of this frame, whatever pose it had before: its vertices, edges and faces
     /// keep their numbers. A stroke runs the way that most of its samples ran, and has the identity that most of them
     /// had, unless another has more of it; what is new keeps its own, made of mesh edges. `u` is shifted as a whole
-    /// where all samples agree, else by parts of 24 pixels and more. Strokes keep their order, and new ones come behind
+    /// where all samples agree, else by parts of 16 pixels and more. Strokes keep their order, and new ones come behind
     /// those that they came behind. After a cut nothing is taken over: where the camera turns by more than 30 degrees,
     /// or fewer than a fifth of the samples find one of the frame before.
     ///
@@ -109,8 +109,10 @@ impl HeldStrokes {
                 if tally.is_reversed {
                     reverse(stroke);
                 }
-                if let (true, Some(line)) = (stroke.closed, tally.main_line()) {
-                    seam::start_at(stroke, known.start_of(line));
+                if let (true, Some(line)) = (stroke.closed, tally.main_line())
+                    && seam::start_at(stroke, known.start_of(line))
+                {
+                    measure(&mut stroke.points);
                 }
                 let samples = sampled(stroke);
                 let votes = votes_of(&known, stroke, &samples);

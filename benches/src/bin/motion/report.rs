@@ -82,7 +82,7 @@ pub fn heading() {
     println!("- code: {}", machine::code());
     println!(
         "- preset {PRESET} at {}x{}, `line.method = \"strokes\"`: the strokes that frames ink, joined, smoothed, and \
-         without doubles and stubs; raw, without anything carried from frame to frame",
+         without doubles and stubs; every frame by itself, and in rows `held` with what is held from frame to frame",
         SIZE[0], SIZE[1]
     );
     println!(
@@ -151,7 +151,7 @@ pub fn sequences(rows: &[Measured]) {
                 format!("{:.3}", tally.jitter()),
                 format!("{:+.3}", tally.mean_bias()),
             ];
-            table.add(&row.name(), cells);
+            table.add(row.name(), cells);
         }
         println!("{table}");
         for is_held in [false, true] {
@@ -221,7 +221,7 @@ pub fn verdict(rows: &[Measured]) {
             format!("{met} of {}", judged.len()),
         ];
         let name = format!("{}{}", bar.name, if is_held { ", held" } else { "" });
-        table.add(&name, cells);
+        table.add(name, cells);
     }
     println!("{table}");
 }

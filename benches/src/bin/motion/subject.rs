@@ -148,8 +148,8 @@ impl Subject {
         film.frame_count(duration_s)
     }
 
-    /// Draws a frame of a sequence; what does not bend is taken over from the frame before. With `held` the strokes hold
-    /// to those of that frame.
+    /// Draws a frame of a sequence; what does not bend is taken over from the frame before. With `held` the strokes
+    /// hold to those of that frame.
     ///
     /// # Errors
     ///

@@ -35,7 +35,8 @@ fn place() -> Workplace {
 fn film(place: &Workplace, name: &str, more: &str, threads: u32) -> BTreeMap<String, Vec<u8>> {
     let (ending, more) = more.split_once(' ').unwrap_or((more, ""));
     let line = format!(
-        "animate waves.obj --size 160x120 -q --eye 6,4,22 --target 6,0,6 --orbit 2 --length 9 -o {name}_#.{ending} {more}"
+        "animate waves.obj --size 160x120 -q --eye 6,4,22 --target 6,0,6 --orbit 2 --length 9 \
+         -o {name}_#.{ending} {more}"
     );
     let words: Vec<&str> = line.split_whitespace().collect();
     let mut command = place.command(&words);

@@ -10,6 +10,7 @@ fn dashed(mut strokes: Vec<Stroke>, pattern_px: &[f64], fit: bool) -> Vec<Stroke
     let dash = Dash {
         pattern_px: pattern_px.to_vec(),
         fit,
+        by_texture: false,
     };
     cut_to_dashes(&mut strokes, |_| Some(&dash));
     strokes
@@ -47,6 +48,53 @@ fn an_unstretched_pattern_begins_at_the_start_and_breaks_off() {
     );
     // Without a gap between them dashes are one.
     assert_eq!(cut(&[4.0, 0.0, 4.0, 7.0]), [[0, 800], [1500, 2300]]);
+}
+
+/// Dashes that lie by the texture, of a straight line whose `u` has these values at its start, after 30 % of it and at
+/// its end.
+fn by_texture(length: f64, pattern_px: &[f64], u: [f64; 3]) -> Vec<[i64; 2]> {
+    let dash = Dash {
+        pattern_px: pattern_px.to_vec(),
+        fit: false,
+        by_texture: true,
+    };
+    let mut stroke = line(length);
+    stroke
+        .points
+        .iter_mut()
+        .zip(u)
+        .for_each(|(point, u)| point.u = u);
+    let mut strokes = vec![stroke];
+    cut_to_dashes(&mut strokes, |_| Some(&dash));
+    inked(&strokes)
+}
+
+#[test]
+fn a_pattern_lies_where_the_texture_does() {
+    let cut = |u| by_texture(30.0, &[8.0, 4.0], u);
+    assert_eq!(
+        cut([0.0, 9.0, 30.0]),
+        [[0, 800], [1200, 2000], [2400, 3000]]
+    );
+    assert_eq!(
+        cut([5.0, 14.0, 35.0]),
+        [[0, 300], [700, 1500], [1900, 2700]]
+    );
+    assert_eq!(
+        cut([-2.0, 7.0, 28.0]),
+        [[200, 1000], [1400, 2200], [2600, 3000]]
+    );
+
+    // A texture that runs the other way, and two that meet in a seam of no ink.
+    assert_eq!(
+        cut([30.0, 21.0, 0.0]),
+        [[0, 600], [1000, 1800], [2200, 3000]]
+    );
+    assert_eq!(cut([0.0, 900.0, 921.0]), [[900, 1700], [2100, 2900]]);
+    assert_eq!(
+        by_texture(30.0, &[0.0, 8.0], [4.0, 13.0, 34.0]),
+        [[395, 405], [1195, 1205], [1995, 2005], [2795, 2805]]
+    );
 }
 
 #[test]
@@ -179,7 +227,7 @@ proptest! {
 
     #[test]
     fn dashes_lie_on_the_line_one_after_the_other(strokes in strokes(), pattern in pattern(), fit: bool) {
-        let dash = Dash { pattern_px: pattern.clone(), fit };
+        let dash = Dash { pattern_px: pattern.clone(), fit, by_texture: false };
         let mut after = strokes.clone();
         cut_to_dashes(&mut after, |_| Some(&dash));
         let count: usize = after.iter().map(|stroke| stroke.points.len()).sum();
@@ -230,9 +278,10 @@ proptest! {
     #[test]
     fn nothing_hostile_stops_it(
         places in hostile_places(), pattern in prop::collection::vec(hostile_length(), 0..9), fit: bool, closed: bool,
+        by_texture: bool,
     ) {
         let strokes = vec![Stroke { closed, ..stroke_of(&places) }, line(100.0)];
-        let dash = Dash { pattern_px: pattern, fit };
+        let dash = Dash { pattern_px: pattern, fit, by_texture };
         let bound = points_of_dashes(&strokes, |_| Some(&dash));
         // What a caller refuses is not drawn.
         prop_assume!(bound < 1_000_000);

@@ -11,6 +11,7 @@ const CALM: Hand = Hand {
     wave_px: 40.0,
     copies: 1,
     spread_px: 3.0,
+    by_texture: false,
 };
 
 fn drawn(mut strokes: Vec<Stroke>, hand: &Hand) -> Vec<Stroke> {
@@ -37,6 +38,37 @@ fn circle(radius: f64) -> Stroke {
         })
         .collect();
     ring_of(&places)
+}
+
+/// A line that was cut off at its start sways as it did, away from the ends, where its texture stays.
+#[test]
+fn a_line_by_texture_sways_as_it_did_before_its_start_moved() {
+    let places =
+        |from: u32| -> Vec<[f64; 2]> { (from..=30).map(|i| [10.0 * f64::from(i), 50.0]).collect() };
+    let sways = |by_texture| {
+        let hand = Hand { by_texture, ..CALM };
+        let [whole, part] = [0_u32, 7].map(|from| {
+            let mut stroke = stroke_of(&places(from));
+            for point in &mut stroke.points {
+                point.u = point.position[0];
+            }
+            let mut strokes = vec![stroke];
+            draw_by_hand(&mut strokes, |_| Some(&hand));
+            strokes.remove(0)
+        });
+        let near = |u: f64| part.points.iter().find(|point| (point.u - u).abs() < 1e-6);
+        let middle = whole
+            .points
+            .iter()
+            .filter(|point| (150.0..220.0).contains(&point.u));
+        let pairs: Vec<f64> = middle
+            .filter_map(|point| Some(near(point.u)?.position[1] - point.position[1]))
+            .collect();
+        assert!(pairs.len() > 5);
+        pairs.into_iter().map(f64::abs).fold(0.0, f64::max)
+    };
+    assert!(sways(true) < 1e-6, "{}", sways(true));
+    assert!(sways(false) > 0.1, "{}", sways(false));
 }
 
 #[test]
@@ -70,7 +102,7 @@ fn waves_are_about_as_long_as_asked() {
 #[test]
 fn a_sway_has_no_kinks() {
     for comes_back in [false, true] {
-        let sway = Sway::new(&CALM, 1000.0, Seed::new(1, 0), comes_back);
+        let sway = Sway::new(&CALM, (0.0, 1000.0), Seed::new(1, 0), comes_back);
         let bend = |apart: f64| {
             let bends = (1..99_000).map(|i| {
                 let [before, here, after] =
@@ -83,7 +115,7 @@ fn a_sway_has_no_kinks() {
         assert!(close < 1.5 * wide, "{wide} {close}");
     }
     // Where a ring begins it goes on as it ends.
-    let ring = Sway::new(&CALM, 333.0, Seed::new(1, 0), true);
+    let ring = Sway::new(&CALM, (0.0, 333.0), Seed::new(1, 0), true);
     for i in [0, 1] {
         let [start, soon, late, end] = [0.0, 1e-4, 333.0 - 1e-4, 333.0].map(|way| ring.at(way)[i]);
         assert!((start - end).abs() < 1e-9 && ((soon - start) - (end - late)).abs() < 1e-6);
@@ -264,7 +296,7 @@ proptest! {
     fn nothing_strays_farther_than_asked(
         strokes in strokes(), wobble in 0.0..20.0f64, wave in 1.0..200.0f64, copies in 1u32..9, spread in 0.0..20.0f64,
     ) {
-        let hand = Hand { wobble_px: wobble, wave_px: wave, copies, spread_px: spread };
+        let hand = Hand { wobble_px: wobble, wave_px: wave, copies, spread_px: spread, by_texture: false };
         let after = drawn(strokes.clone(), &hand);
         prop_assert_eq!(after.len(), strokes.len() * copies as usize);
         let count: usize = after.iter().map(|stroke| stroke.points.len()).sum();
@@ -311,7 +343,7 @@ proptest! {
         places in hostile_places(), wobble in hostile_length(), wave in hostile_length(), copies: u32,
         spread in hostile_length(), closed: bool,
     ) {
-        let hand = Hand { wobble_px: wobble, wave_px: wave, copies, spread_px: spread };
+        let hand = Hand { wobble_px: wobble, wave_px: wave, copies, spread_px: spread, by_texture: false };
         let strokes = vec![Stroke { closed, ..stroke_of(&places) }, line(1)];
         let bound = points_by_hand(&strokes, |_| Some(&hand));
         // What a caller refuses is not drawn.

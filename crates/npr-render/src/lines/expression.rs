@@ -1,5 +1,6 @@
 //! How the strokes of a drawing are drawn: where they end, how they thin out, how a hand sways, how they are dashed.
 
+use super::film::DrawnBefore;
 use super::model::check_count;
 use super::options::LineOptions;
 use crate::error::RenderError;
@@ -75,6 +76,7 @@ impl Pixels<'_> {
                 wave_px: self.drawn(hand.wave),
                 copies: hand.copies,
                 spread_px: self.drawn(hand.spread),
+                by_texture: false,
             },
             dash: Dash {
                 pattern_px: manner
@@ -84,6 +86,7 @@ impl Pixels<'_> {
                     .map(|length| self.drawn(*length))
                     .collect(),
                 fit: manner.dash.fit,
+                by_texture: false,
             },
         }
     }
@@ -135,6 +138,15 @@ impl Expression {
             room: f64::from(style.line.width.room),
             manners: manners.map(|manner| pixels.manner(manner, depth)).collect(),
         }
+    }
+
+    /// The same for a film whose strokes hold: dashes and sways lie by the texture, which holds.
+    pub fn held(mut self) -> Self {
+        for manner in &mut self.manners {
+            manner.dash.by_texture = true;
+            manner.hand.by_texture = true;
+        }
+        self
     }
 
     /// What of it does not depend on what is seen of strokes: their length, width over depth, and the hand.
@@ -195,6 +207,7 @@ impl Expression {
     }
 
     /// Draws the visible strokes so for which `manner_of` gives the number of a manner, in a picture of `size` pixels.
+    /// After a frame `before` what was drawn there is a stub when it is shorter.
     ///
     /// Stubs and specks go before ends move, as what is short is about lines and not about pens. Tapers follow the
     /// ends; copies have the tapers of their line; and each copy is dashed for itself.
@@ -202,11 +215,12 @@ impl Expression {
     /// # Errors
     ///
     /// [`RenderError::TooMany`] before memory is taken for more points than a drawing may have.
-    pub fn draw(
+    pub(super) fn draw(
         &self,
         strokes: &mut Vec<Stroke>,
         size: [u32; 2],
         manner_of: impl Fn(&Stroke) -> Option<u32> + Sync,
+        before: Option<&mut DrawnBefore>,
     ) -> Result<(), RenderError> {
         // Leave out stubs, and cut what is too long.
         let of = |stroke: &Stroke| manner_of(stroke).and_then(|i| self.manners.get(i as usize));
@@ -219,7 +233,10 @@ impl Expression {
             Kind::Crease => of_creases,
             _ => of_others,
         };
-        remove_stubs(strokes, size, least_px);
+        match before {
+            Some(before) => before.remove_stubs(strokes, size, least_px),
+            None => remove_stubs(strokes, size, least_px),
+        }
         cut_long_strokes(strokes, self.longest_px, is_drawn);
 
         // Move the ends, and thin them.

@@ -1,26 +1,128 @@
 //! What the lines of a film's frames take over from the frame before.
 
 use npr_core::line_source::LineSource;
+use npr_drawing::stubs::remove_stubs;
 use npr_vector::hold::HeldStrokes;
+use npr_vector::stroke::Stroke;
+use std::collections::BTreeMap;
+
+/// Share of the least length below which a line goes that was drawn in the frame before.
+const GOES_SHARE: f64 = 0.75;
+
+/// Share of the least length from which a line comes that was not drawn in the frame before.
+const COMES_SHARE: f64 = 1.15;
 
 /// The strokes of the frame drawn last, for [`LineModel::draw_held`](super::LineModel::draw_held); of every way to find
 /// lines its own, as a frame may have several.
 #[derive(Debug, Clone, Default)]
 pub struct HeldLines {
-    of_methods: Vec<(LineSource, HeldStrokes)>,
+    of_methods: Vec<(LineSource, HeldLinesOfMethod)>,
+}
+
+/// Those that one method found.
+#[derive(Debug, Clone, Default)]
+pub(super) struct HeldLinesOfMethod {
+    pub strokes: HeldStrokes,
+    pub drawn: DrawnBefore,
 }
 
 impl HeldLines {
     /// Those that a method found.
-    pub(super) fn of(&mut self, method: LineSource) -> &mut HeldStrokes {
+    pub(super) fn of(&mut self, method: LineSource) -> &mut HeldLinesOfMethod {
         let known = self
             .of_methods
             .iter()
             .position(|(other, _)| *other == method);
         let index = known.unwrap_or_else(|| {
-            self.of_methods.push((method, HeldStrokes::default()));
+            self.of_methods.push((method, HeldLinesOfMethod::default()));
             self.of_methods.len() - 1
         });
         &mut self.of_methods[index].1
+    }
+}
+
+/// Which strokes of the frame before were drawn, and no stubs.
+#[derive(Debug, Clone, Default)]
+pub(super) struct DrawnBefore {
+    /// Their ids, and whether all of each was drawn; none before the first frame.
+    ids: Option<BTreeMap<u64, bool>>,
+}
+
+impl DrawnBefore {
+    /// Removes stubs as [`remove_stubs`] does, later than they come: what is about as long as the least length does not
+    /// come and go all the time.
+    pub fn remove_stubs(
+        &mut self,
+        strokes: &mut Vec<Stroke>,
+        size: [u32; 2],
+        least_px: impl Fn(&Stroke) -> f64 + Sync,
+    ) {
+        let lengths = |strokes: &[Stroke]| -> BTreeMap<u64, f64> {
+            let all = strokes.iter().filter(|stroke| stroke.is_visible());
+            all.map(|stroke| (stroke.id, stroke.length())).collect()
+        };
+        let found = lengths(strokes);
+        remove_stubs(strokes, size, |stroke| {
+            least_px(stroke) * self.factor(stroke)
+        });
+        let drawn = lengths(strokes).into_iter();
+        let drawn = drawn.map(|(id, length)| (id, found.get(&id) == Some(&length)));
+        self.ids = Some(drawn.collect());
+    }
+
+    /// The factor on the least length of a stroke.
+    fn factor(&self, stroke: &Stroke) -> f64 {
+        match self.ids.as_ref().map(|ids| ids.get(&stroke.id)) {
+            Some(Some(true)) => GOES_SHARE,
+            Some(None) => COMES_SHARE,
+            // A stub was cut off it, and is one still.
+            Some(Some(false)) | None => 1.0,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use npr_vector::stroke::{Kind, StrokePoint};
+
+    fn stroke(id: u64, places: &[[f64; 2]], closed: bool) -> Stroke {
+        let point = |position: &[f64; 2]| StrokePoint {
+            position: *position,
+            width: 1.0,
+            ..StrokePoint::default()
+        };
+        Stroke {
+            id,
+            kind: Kind::Crease,
+            occluders: 0,
+            surface: 0,
+            closed,
+            points: places.iter().map(point).collect(),
+        }
+    }
+
+    /// Whether a line in the open is drawn in frames where it is so long; lines of 20 pixels are no stubs.
+    fn drawn(lengths: &[f64], mut before: Option<DrawnBefore>) -> Vec<bool> {
+        let around = [[10.0, 10.0], [190.0, 10.0], [190.0, 190.0], [10.0, 190.0]];
+        let frames = lengths.iter().map(|length| {
+            let line = stroke(7, &[[80.0, 100.0], [80.0 + length, 100.0]], false);
+            let mut strokes = vec![stroke(1, &around, true), line];
+            match &mut before {
+                Some(before) => before.remove_stubs(&mut strokes, [200; 2], |_| 20.0),
+                None => remove_stubs(&mut strokes, [200; 2], |_| 20.0),
+            }
+            strokes.iter().any(|stroke| stroke.id == 7)
+        });
+        frames.collect()
+    }
+
+    #[test]
+    fn what_is_about_as_long_as_a_stub_stays_as_it_is() {
+        let lengths = [21.0, 19.0, 22.0, 16.0, 14.0, 16.0, 22.0, 24.0, 18.0];
+        let alone = [true, false, true, false, false, false, true, true, false];
+        let held = [true, true, true, true, false, false, false, true, true];
+        assert_eq!(drawn(&lengths, None), alone);
+        assert_eq!(drawn(&lengths, Some(DrawnBefore::default())), held);
     }
 }

@@ -434,9 +434,9 @@ impl LineModel {
             left_out,
         } = self.strokes(&prepared, &view, (style, options), &paint, find)?;
         paint.apply(&mut strokes);
-        if let Some(held) = held {
-            held.of(options.method)
-                .hold(&mut strokes, &self.shape, &projector);
+        let mut held = held.map(|held| held.of(options.method));
+        if let Some(held) = &mut held {
+            held.strokes.hold(&mut strokes, &self.shape, &projector);
         }
         if let Some(stroke_contrast) = stroke_contrast {
             stroke_contrast.apply(&mut strokes, &|surface| paint.line_color(surface));
@@ -465,7 +465,12 @@ impl LineModel {
             true => expression.before_sight(),
             false => expression,
         };
-        expression.draw(&mut strokes, options.size, manner_of)?;
+        let expression = match held.is_some() {
+            true => expression.held(),
+            false => expression,
+        };
+        let drawn = held.map(|held| &mut held.drawn);
+        expression.draw(&mut strokes, options.size, manner_of, drawn)?;
         check_points(&strokes)?;
         let mut surfaces = paint.into_surfaces(&self.parts);
         let object_number = surfaces.iter().map(|s| s.object_number + 1).max();

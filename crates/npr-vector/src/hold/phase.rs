@@ -12,8 +12,8 @@ const LEAST_SAMPLES: usize = 8;
 /// Samples without a vote, or with another one, over which a row of votes goes on.
 const GAP_SAMPLES: usize = 8;
 
-/// Most by which shifts differ from a sample to the next in one row, in pixels, beside what is noise: surfaces turn away,
-/// and lines on them get longer. Where one texture changes over to another they differ by more.
+/// Most by which shifts differ from a sample to the next in one row, in pixels, beside what is noise: surfaces turn
+/// away, and lines on them get longer. Where one texture changes over to another they differ by more.
 const STRETCH_PX: f64 = 0.4;
 
 /// Noise of shifts, in pixels.
@@ -25,7 +25,8 @@ const ALIKE_PX: f64 = 1.0;
 /// How far the shift of a part comes nearer to that of the largest part in a frame, in pixels.
 const APPROACH_PX: f64 = 0.5;
 
-/// Most by which shifts of one row differ, in pixels: where more of a line comes or goes on the way, its texture is parted.
+/// Most by which shifts of one row differ, in pixels: where more of a line comes or goes on the way, its texture is
+/// parted.
 const SPREAD_PX: f64 = 6.0;
 
 /// Way over which one texture changes over to another that is shifted by at most as much, in pixels. Others meet in a

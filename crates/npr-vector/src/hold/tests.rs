@@ -291,7 +291,7 @@ proptest! {
         let mut next = before.clone();
         random.shuffle(&mut next);
         for stroke in &mut next {
-            stroke.id = 1000 + random.below(1 << 20) as u64 * 16 + stroke.id;
+            stroke.id += 1000 + random.below(1 << 20) as u64 * 16;
             for point in &mut stroke.points {
                 point.position[0] += f64::from(right);
                 point.world[0] += if by_camera { 0.0 } else { right };
