@@ -1,8 +1,8 @@
 //! The engine that runs the shaders on a graphics device, through wgpu.
 //!
 //! It asks for what every WebGPU device has and for nothing else, apart from a clock where there is one. Every call
-//! that may fail runs inside error scopes, every wait ends after [`TIME_LIMIT`], and once the device is lost every
-//! call says so instead of returning what was left in memory.
+//! that may fail runs inside error scopes, every wait ends after [`TIME_LIMIT`], or [`SOFTWARE_TIME_LIMIT`], and once
+//! the device is lost every call says so instead of returning what was left in memory.
 
 mod adapter;
 mod clock;
@@ -23,7 +23,7 @@ pub use adapter::{AdapterChoice, AdapterKind, AdapterSummary, adapters};
 pub use gpu::Traffic;
 pub use inlay::{DepthTarget, Inlay, Target, TargetFormat};
 pub use session::DeviceSession;
-pub use watch::TIME_LIMIT;
+pub use watch::{SOFTWARE_TIME_LIMIT, TIME_LIMIT};
 pub use wgpu;
 
 use crate::engine::{Engine, EngineError, Session};

@@ -78,8 +78,8 @@ pub(crate) fn ink_over(part: &Part, range: [f32; 2]) -> Option<f32> {
     }
 }
 
-/// Luminance of a place of which the pen leaves out a share of the shade: it lies that much lighter on the ramp, so that
-/// the shade covers less, and what is left of it tapers as before.
+/// Luminance of a place of which the pen leaves out a share of the shade: it lies that much lighter on the ramp, so
+/// that the shade covers less, and what is left of it tapers as before.
 fn spared_level(l: f32, spared: f32) -> f32 {
     l + spared
 }

@@ -42,9 +42,9 @@ pub enum Mapping {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Follow {
-    /// The limbs of figures that a skeleton bends: on legs strokes lean to where the leg begins, on arms to the hand, on
-    /// the trunk to its middle line [Suzuki 2004, section 2.3.1]; hair and tails take strokes along. What no limb moves
-    /// takes `around`.
+    /// The limbs of figures that a skeleton bends: on legs strokes lean to where the leg begins, on arms to the hand,
+    /// on the trunk to its middle line [Suzuki 2004, section 2.3.1]; hair and tails take strokes along. What no limb
+    /// moves takes `around`.
     #[default]
     Limbs,
     /// Round the form: the direction in which the surface bends most.

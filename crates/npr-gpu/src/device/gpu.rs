@@ -5,10 +5,11 @@
 //! of the host: there the watch asks the device.
 
 use super::adapter::AdapterSummary;
-use super::watch::{TIME_LIMIT, Watch, one_line};
+use super::watch::{SOFTWARE_TIME_LIMIT, TIME_LIMIT, Watch, one_line};
 use crate::engine::EngineError;
 use npr_core::decoding::guard;
 use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
 
 /// What sessions share: the device, its queue, and its watch.
 #[derive(Debug)]
@@ -39,13 +40,21 @@ impl Gpu {
         }
     }
 
-    /// Waits for a submission, at most [`TIME_LIMIT`].
+    /// How long any call waits for the device before it counts as lost.
+    pub(super) fn time_limit(&self) -> Duration {
+        match self.adapter.is_software() {
+            true => SOFTWARE_TIME_LIMIT,
+            false => TIME_LIMIT,
+        }
+    }
+
+    /// Waits for a submission, at most [`Self::time_limit`].
     pub(super) fn wait(&self, submission: wgpu::SubmissionIndex) -> Result<(), EngineError> {
         self.check()?;
         self.count(|traffic| traffic.waits += 1);
         self.poll(wgpu::PollType::Wait {
             submission_index: Some(submission),
-            timeout: Some(TIME_LIMIT),
+            timeout: Some(self.time_limit()),
         })
     }
 

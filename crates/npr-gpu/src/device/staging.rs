@@ -1,7 +1,6 @@
 //! Memory that the device writes and the processor reads.
 
 use super::gpu::Gpu;
-use super::watch::TIME_LIMIT;
 use crate::engine::EngineError;
 use rayon::prelude::*;
 use std::sync::mpsc;
@@ -77,14 +76,13 @@ impl Staging {
 
         // Copy what came. Another thread that waits for its own work may be the one that runs the callback, a little
         // later.
-        let words =
-            asked.into_iter().map(
-                |(staging, receiver)| match receiver.recv_timeout(TIME_LIMIT) {
-                    Ok(Ok(())) => staging.copied(gpu),
-                    Ok(Err(error)) => Err(gpu.failed(READING, &error)),
-                    Err(error) => Err(gpu.failed(READING, &error)),
-                },
-            );
+        let words = asked.into_iter().map(|(staging, receiver)| {
+            match receiver.recv_timeout(gpu.time_limit()) {
+                Ok(Ok(())) => staging.copied(gpu),
+                Ok(Err(error)) => Err(gpu.failed(READING, &error)),
+                Err(error) => Err(gpu.failed(READING, &error)),
+            }
+        });
         words.collect()
     }
 

@@ -8,6 +8,10 @@ use std::time::Duration;
 /// How long any call waits for the device before it counts as lost.
 pub const TIME_LIMIT: Duration = Duration::from_secs(30);
 
+/// The same of a device that computes on the processor: it compiles passes while it is waited for, which takes half a
+/// minute where all processors are busy.
+pub const SOFTWARE_TIME_LIMIT: Duration = Duration::from_secs(180);
+
 /// What is said of a device that the program itself gave up.
 pub(super) const GIVEN_UP: &str = "it was given up";
 
