@@ -1,10 +1,10 @@
 //! Strokes that hold still from frame to frame: which way they run, where their texture lies, and what they are called
 //! is taken over from the frame before [Kalnins et al. 2003].
 //!
-//! [`remembered`] keeps samples of a frame's strokes by their place on the surface, and finds them again in the next
-//! view. Every sample of a new stroke votes with the remembered one that it is ([`votes`]): for a way to run, for an
-//! identity ([`identity`]), which also keeps its place in the order ([`order`]), and for a shift of the texture
-//! coordinate ([`phase`]). Closed strokes start where they did ([`seam`]).
+//! `remembered` keeps samples of a frame's strokes by their place on the surface, and finds them again in the next
+//! view. Every sample of a new stroke votes with the remembered one that it is (`votes`): for a way to run, for an
+//! identity (`identity`), which also keeps its place in the order (`order`), and for a shift of the texture
+//! coordinate (`phase`). Closed strokes start where they did (`seam`).
 //!
 //! Differs: the paper fits a slope to the votes of a run, too; here a pixel along a stroke stays a pixel of its
 //! texture, so that dashes and stamps never stretch. Where parts of one stroke had textures of their own these stay,
