@@ -10,6 +10,9 @@ const LONGEST_PX: f64 = 1e6;
 /// Distance, in pixels, under which two points are one.
 const TOO_NEAR_PX: f64 = 1e-3;
 
+/// The same of a point and the end of a part: a corner that is left out makes the line shorter by up to twice as much.
+const AT_END_PX: f64 = 1e-6;
+
 /// Length, in pixels, of the piece at an end that says where a line runs on to: steps of pixels and the last bend of a
 /// smoothed line are shorter.
 const TANGENT_PX: f64 = 6.0;
@@ -99,10 +102,8 @@ impl Measured {
     fn inner_part(&self, from: f64, to: f64) -> Vec<StrokePoint> {
         let first = self
             .along
-            .partition_point(|along| *along < from + TOO_NEAR_PX);
-        let after = self
-            .along
-            .partition_point(|along| *along <= to - TOO_NEAR_PX);
+            .partition_point(|along| *along < from + AT_END_PX);
+        let after = self.along.partition_point(|along| *along <= to - AT_END_PX);
         let between = self.points.get(first..after).unwrap_or_default();
         let ends = [self.at(from), self.at(to)];
         let mut points = Vec::with_capacity(between.len() + 2);
