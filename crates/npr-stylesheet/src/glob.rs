@@ -1,10 +1,16 @@
-//! Name patterns with `*` and `?`.
+//! Name patterns with `*`, `?` and `|`.
 
 /// Whether `name` matches `pattern`, letter for letter.
 ///
-/// `*` stands for any run of characters, also none, and `?` for exactly one. There is no escape. Time is
-/// O(name * pattern) at worst and linear for patterns with one `*`; no recursion.
+/// `*` stands for any run of characters, also none, and `?` for exactly one. `|` parts patterns of which one has to
+/// match. There is no escape: `?` matches a `|` in a name. Time is O(name * pattern) at worst and linear for patterns
+/// with one `*`; no recursion.
 pub fn matches(pattern: &str, name: &str) -> bool {
+    pattern.split('|').any(|pattern| matches_one(pattern, name))
+}
+
+/// Whether `name` matches a pattern without `|`.
+fn matches_one(pattern: &str, name: &str) -> bool {
     let (mut pattern, mut name) = (pattern.chars(), name.chars());
     let mut retry: Option<(std::str::Chars<'_>, std::str::Chars<'_>)> = None;
     loop {
@@ -46,6 +52,9 @@ mod tests {
             ("h?r", "här"),
             ("a*b*c", "aXbYbc"),
             ("**", "x"),
+            ("*Face*|face*", "face_01"),
+            ("*Face*|face*", "F00_Face"),
+            ("|x", ""),
         ] {
             assert!(matches(pattern, name), "{pattern} against {name}");
         }
@@ -55,6 +64,8 @@ mod tests {
             ("?", ""),
             ("a*b", "ab1"),
             ("a?", "a"),
+            ("*Face*|face*", "Surface"),
+            ("a|b", "a|b"),
         ] {
             assert!(!matches(pattern, name), "{pattern} against {name}");
         }
@@ -74,13 +85,14 @@ mod tests {
 
     proptest! {
         #[test]
-        fn agrees_with_the_definition(pattern in "[ab*?]{0,8}", name in "[ab]{0,10}") {
+        fn agrees_with_the_definition(pattern in "[ab*?|]{0,8}", name in "[ab|]{0,10}") {
             let chars = |text: &str| text.chars().collect::<Vec<_>>();
-            prop_assert_eq!(matches(&pattern, &name), oracle(&chars(&pattern), &chars(&name)));
+            let expected = pattern.split('|').any(|pattern| oracle(&chars(pattern), &chars(&name)));
+            prop_assert_eq!(matches(&pattern, &name), expected);
         }
 
         #[test]
-        fn every_name_matches_itself_and_a_star(name in "[^*?]{0,20}") {
+        fn every_name_matches_itself_and_a_star(name in "[^*?|]{0,20}") {
             prop_assert!(matches(&name, &name));
             prop_assert!(matches("*", &name));
         }

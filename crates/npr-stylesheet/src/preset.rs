@@ -44,7 +44,7 @@ macro_rules! presets {
 /// The newest version of every preset, in the order of lists.
 const PRESETS: &[Preset] = presets![
     "toon" 5 "../presets/toon.toml",
-    "ink" 5 "../presets/ink.toml",
+    "ink" 6 "../presets/ink.toml",
     "g-pen" 6 "../presets/g-pen.toml",
     "technical" 5 "../presets/technical.toml",
     "comic-silver" 5 "../presets/comic-silver.toml",
@@ -62,8 +62,8 @@ const PRESETS: &[Preset] = presets![
     "sketch" 4 "../presets/sketch.toml",
     "pencil-outline" 4 "../presets/pencil-outline.toml",
     "charcoal" 4 "../presets/charcoal.toml",
-    "chalkboard" 4 "../presets/chalkboard.toml",
-    "blueprint" 3 "../presets/blueprint.toml",
+    "chalkboard" 5 "../presets/chalkboard.toml",
+    "blueprint" 4 "../presets/blueprint.toml",
     "cel-2" 4 "../presets/cel-2.toml",
     "cel-3" 4 "../presets/cel-3.toml",
     "coloured-lines" 5 "../presets/coloured-lines.toml",
@@ -92,6 +92,7 @@ const OLDER: &[Preset] = presets![
     "atmosphere" 4 "../presets/older/atmosphere-4.toml",
     "blueprint" 1 "../presets/older/blueprint-1.toml",
     "blueprint" 2 "../presets/older/blueprint-2.toml",
+    "blueprint" 3 "../presets/older/blueprint-3.toml",
     "brush" 1 "../presets/older/brush-1.toml",
     "brush" 2 "../presets/older/brush-2.toml",
     "brush" 3 "../presets/older/brush-3.toml",
@@ -105,6 +106,7 @@ const OLDER: &[Preset] = presets![
     "chalkboard" 1 "../presets/older/chalkboard-1.toml",
     "chalkboard" 2 "../presets/older/chalkboard-2.toml",
     "chalkboard" 3 "../presets/older/chalkboard-3.toml",
+    "chalkboard" 4 "../presets/older/chalkboard-4.toml",
     "charcoal" 1 "../presets/older/charcoal-1.toml",
     "charcoal" 2 "../presets/older/charcoal-2.toml",
     "charcoal" 3 "../presets/older/charcoal-3.toml",
@@ -145,6 +147,7 @@ const OLDER: &[Preset] = presets![
     "ink" 2 "../presets/older/ink-2.toml",
     "ink" 3 "../presets/older/ink-3.toml",
     "ink" 4 "../presets/older/ink-4.toml",
+    "ink" 5 "../presets/older/ink-5.toml",
     "ink-wash" 1 "../presets/older/ink-wash-1.toml",
     "ink-wash" 2 "../presets/older/ink-wash-2.toml",
     "ink-wash" 3 "../presets/older/ink-wash-3.toml",
@@ -397,14 +400,17 @@ mod tests {
     }
 
     /// The first version of presets with calm tones and rounded edges, where a newer one came after it.
-    const FIRST_CALM: [(&str, u32); 14] = [
+    const FIRST_CALM: [(&str, u32); 17] = [
+        ("blueprint", 3),
         ("brush", 4),
+        ("chalkboard", 4),
         ("charcoal", 3),
         ("comic-light", 4),
         ("comic-modern", 6),
         ("comic-silver", 4),
         ("crosshatch", 4),
         ("g-pen", 5),
+        ("ink", 5),
         ("ink-wash", 4),
         ("manga", 4),
         ("pencil", 5),
@@ -415,8 +421,10 @@ mod tests {
     ];
 
     /// The last version of presets that left painted eyes empty.
-    const LAST_WITHOUT_EYES: [(&str, u32); 5] = [
+    const LAST_WITHOUT_EYES: [(&str, u32); 7] = [
+        ("blueprint", 3),
         ("brush", 4),
+        ("chalkboard", 4),
         ("charcoal", 3),
         ("g-pen", 5),
         ("ink-wash", 4),

@@ -11,7 +11,8 @@ use crate::{
 
 /// What a rule applies to: all patterns have to match.
 ///
-/// `*` stands for any run of characters and `?` for one; letters match by case.
+/// `*` stands for any run of characters and `?` for one; letters match by case. `|` parts patterns of which one has to
+/// match: `Hair*|Brow*`.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Match {
