@@ -63,7 +63,8 @@ macro_rules! kind_tables {
 }
 
 kind_tables! {
-    /// Where a surface turns away from the eye; default true.
+    /// Where a surface turns away from the eye; default true. Off is the setting for still films: contours slide over
+    /// surfaces, all other kinds lie on them. Edges of other kinds stay where they are on the outline.
     contour: Contour, "Of contours.";
     /// Where a surface ends: edges with one face; default true.
     boundary: Boundary, "Of boundaries.";

@@ -1,6 +1,7 @@
 //! What drawings show: kinds, widths, colours, rules, marks.
 
 use crate::scenes::{SIZE, add, camera_at, drawing_from, even_style, model_of, scene_of};
+use npr_mesh::Mesh;
 use npr_mesh::testing::{cube, icosphere, mapped, mirrored, plane};
 use npr_render::{Drawing, Kind, KindSet, LineModel, LineModelOptions, LineOptions, Model};
 use npr_scene::{AlphaMode, Scene};
@@ -37,6 +38,33 @@ fn only_the_kinds_asked_for_are_drawn() {
         assert!(drawing.strokes.iter().all(|stroke| stroke.kind == kind));
         assert_eq!(drawing.strokes.is_empty(), kind == Kind::Boundary);
     }
+}
+
+#[test]
+fn without_contours_what_lies_on_the_surface_keeps_its_outline() {
+    // Of a cube every edge is a crease, of a ball none is one.
+    let drawn = |mesh: &Mesh| {
+        let mut style = Style::default();
+        style.line.kinds.contour = false;
+        let options = LineOptions::of_style(&style, SIZE);
+        let model = model_of(&scene_of(mesh));
+        model
+            .draw(&camera_at(EYE), &style, &options)
+            .expect("drawn")
+    };
+    let whole = drawing_from(&scene_of(&cube()), EYE);
+    let [with, without] = [&whole, &drawn(&cube())].map(|drawing| {
+        drawing
+            .strokes
+            .iter()
+            .map(|stroke| stroke.length())
+            .sum::<f64>()
+    });
+    assert!(
+        (with - without).abs() < 0.02 * with,
+        "{with} and {without} px"
+    );
+    assert!(drawn(&icosphere(3)).strokes.is_empty());
 }
 
 #[test]
