@@ -7,6 +7,7 @@
 //! 3. Make strokes of what is seen: `run_assembly` cuts it into the parts of [`run`]; `relabel_intersections`,
 //!    `duplicates`, `merge`, `overshoot`, `corner` and `smooth` tidy them.
 
+pub(crate) mod anchor;
 mod bridge;
 pub mod bvh;
 pub mod contour;
@@ -16,6 +17,7 @@ mod duplicates;
 pub mod feature;
 pub mod graph;
 pub mod intersect;
+mod joints;
 mod line;
 mod line_settings;
 mod merge;
@@ -32,4 +34,5 @@ mod suppressed_edges;
 mod visibility;
 pub mod zero_set;
 
+pub use joints::HeldJoints;
 pub use merge::{DEPTH_SHARE, FACING_PX, STRAIGHT_COS, TOUCHING_PX};

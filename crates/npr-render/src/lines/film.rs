@@ -3,6 +3,7 @@
 use npr_core::line_source::LineSource;
 use npr_drawing::stubs::remove_stubs;
 use npr_vector::hold::HeldStrokes;
+use npr_vector::mesh_lines::HeldJoints;
 use npr_vector::stroke::Stroke;
 use std::collections::BTreeMap;
 
@@ -22,6 +23,7 @@ pub struct HeldLines {
 /// Those that one method found.
 #[derive(Debug, Clone, Default)]
 pub(super) struct HeldLinesOfMethod {
+    pub joints: HeldJoints,
     pub strokes: HeldStrokes,
     pub drawn: DrawnBefore,
 }

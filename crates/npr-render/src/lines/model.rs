@@ -38,6 +38,7 @@ use npr_drawing::pressure::Pressure;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_scene::Scene;
 use npr_stylesheet::{DepthSpace, Look, Style};
+use npr_vector::mesh_lines::HeldJoints;
 use npr_vector::mesh_lines::bvh::FaceTree;
 use npr_vector::mesh_lines::contour::EdgeContours;
 use npr_vector::mesh_lines::draw::{
@@ -429,12 +430,13 @@ impl LineModel {
         };
         let surfaces = &self.shape.surfaces;
         let paint = Paint::new((&self.parts, surfaces), style, has_lines);
+        let mut held = held.map(|held| held.of(options.method));
+        let joints = held.as_mut().map(|held| &mut held.joints);
         let ViewStrokes {
             mut strokes,
             left_out,
-        } = self.strokes(&prepared, &view, (style, options), &paint, find)?;
+        } = self.strokes(&prepared, &view, (style, options), &paint, (find, joints))?;
         paint.apply(&mut strokes);
-        let mut held = held.map(|held| held.of(options.method));
         if let Some(held) = &mut held {
             held.strokes.hold(&mut strokes, &self.shape, &projector);
         }
@@ -557,7 +559,7 @@ impl LineModel {
         view: &LineView<'_>,
         (style, options): (&Style, &LineOptions),
         paint: &Paint,
-        find: &mut dyn Finder,
+        (find, joints): (&mut dyn Finder, Option<&mut HeldJoints>),
     ) -> Result<ViewStrokes, RenderError> {
         // Trace lines from a picture of them, and measure how the shape bends while a device does.
         let radius = self.radius();
@@ -619,10 +621,13 @@ impl LineModel {
                 strokes: pixels::strokes(view, prepared, &traced, (&settings, &look))?,
                 left_out: 0,
             },
-            None if options.method == LineSource::Image => {
-                view.of_mesh(prepared.get()?, &image::beside_image(&settings), &look)?
-            }
-            None => view.of_mesh(prepared.get()?, &settings, &look)?,
+            None if options.method == LineSource::Image => view.of_mesh(
+                prepared.get()?,
+                &image::beside_image(&settings),
+                &look,
+                None,
+            )?,
+            None => view.of_mesh(prepared.get()?, &settings, &look, joints)?,
         };
         if options.method == LineSource::Image || options.painted.is_some() {
             let of_image = image::strokes(view, prepared.get()?, options, line)?;

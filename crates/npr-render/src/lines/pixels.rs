@@ -26,7 +26,7 @@ pub(super) fn strokes(
     let (shape, projector) = (view.shape, view.projector);
     let mut strokes = traced.strokes(shape, projector, loops, settings.split, look);
     if let Some(smoke) = view.smoke {
-        let all = view.of_mesh(prepared.get()?, settings, look)?;
+        let all = view.of_mesh(prepared.get()?, settings, look, None)?;
         let of_smoke = all
             .strokes
             .into_iter()

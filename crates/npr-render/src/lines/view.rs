@@ -6,6 +6,7 @@ use crate::error::RenderError;
 use crate::placement::Bounds;
 use npr_core::camera::Camera;
 use npr_mesh::half_edge::HalfEdgeMesh;
+use npr_vector::mesh_lines::HeldJoints;
 use npr_vector::mesh_lines::contour::EdgeContours;
 use npr_vector::mesh_lines::draw::{
     LineSettings, Prepared, StrokeLook, ViewStrokes, spines, strokes_with,
@@ -34,12 +35,13 @@ pub(super) struct LineView<'a> {
 }
 
 impl LineView<'_> {
-    /// The strokes of lines on the mesh, and of smoke.
+    /// The strokes of lines on the mesh, and of smoke; joints hold to those of the frame before, if there is one.
     pub fn of_mesh(
         &self,
         prepared: &Prepared,
         settings: &LineSettings,
         look: &StrokeLook<'_>,
+        held: Option<&mut HeldJoints>,
     ) -> Result<ViewStrokes, RenderError> {
         if self.is_open {
             let (shape, contours) = (self.shape, self.contours);
@@ -53,7 +55,7 @@ impl LineView<'_> {
             settings,
             self.contours,
             look,
-            self.smoke,
+            (self.smoke, held),
         );
         Ok(found?)
     }

@@ -1,5 +1,6 @@
 //! What is kept of a frame's strokes, and where it shows in the next one.
 
+use crate::mesh_lines::anchor::Anchor;
 use crate::mesh_lines::near::{Cells, cell_of, cells_around};
 use crate::mesh_lines::run::distance;
 use crate::project::Projector;
@@ -19,40 +20,12 @@ pub(super) const REACH_PX: f64 = 3.0;
 /// A place on a remembered stroke.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Sample {
-    /// What of the shape it lies on.
-    location: SurfaceLocation,
-    /// How much each vertex of that counts; of what lies on no shape, the place in the world.
-    at: [f32; 3],
-    /// How far the stroke was drawn beside that, in pixels: strokes are smoothed.
-    beside_px: [f32; 2],
+    anchor: Anchor,
     /// Texture coordinate, in pixels.
     u: f32,
 }
 
 const _: () = assert!(size_of::<Sample>() <= 32, "a sample takes 32 bytes at most");
-
-impl Sample {
-    /// Where its point of the shape lies in the world.
-    fn world(&self, shape: &HalfEdgeMesh) -> DVec3 {
-        let at = self.at.map(f64::from);
-        if self.location.is_nowhere() {
-            return DVec3::from(at);
-        }
-        let vertices = self.location.vertices(shape);
-        let parts = (0..3).map(|i| shape.point(vertices[i]) * at[i]);
-        parts.sum()
-    }
-
-    /// Where it shows in a view; none where it lies behind the eye.
-    fn place(&self, shape: &HalfEdgeMesh, projector: &Projector) -> Option<[f64; 2]> {
-        let world = self.world(shape);
-        if projector.depth(world) < projector.near() {
-            return None;
-        }
-        let place = projector.project(world);
-        Some([0, 1].map(|i| place[i] + f64::from(self.beside_px[i])))
-    }
-}
 
 /// A remembered stroke, or a part of one.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -93,22 +66,9 @@ pub(super) struct Place {
 impl Place {
     /// What is kept of it.
     pub fn remembered(&self, shape: &HalfEdgeMesh, projector: &Projector) -> Sample {
-        let (at, world) = match self.location.is_nowhere() {
-            true => (self.world.to_array(), self.world),
-            false => {
-                let (vertices, shares) = self.location.place(shape, self.world);
-                let parts = (0..3).map(|i| shape.point(vertices[i]) * shares[i]);
-                (shares, parts.sum())
-            }
-        };
-        let place = match projector.depth(world) < projector.near() {
-            true => self.position,
-            false => projector.project(world),
-        };
+        let place = (self.position, self.world);
         Sample {
-            location: self.location,
-            at: at.map(|v| v as f32),
-            beside_px: [0, 1].map(|i| (self.position[i] - place[i]) as f32),
+            anchor: Anchor::new(place, self.location, shape, projector),
             u: self.u as f32,
         }
     }
@@ -179,7 +139,12 @@ impl Known {
         // Find their places.
         let places: Vec<[f64; 2]> = samples
             .par_iter()
-            .map(|sample| sample.place(shape, projector).unwrap_or([f64::NAN; 2]))
+            .map(|sample| {
+                sample
+                    .anchor
+                    .place(shape, projector)
+                    .unwrap_or([f64::NAN; 2])
+            })
             .collect();
 
         // Give them directions, from the one before to the one after.

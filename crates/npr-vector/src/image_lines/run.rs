@@ -41,7 +41,7 @@ pub fn strokes_from(
     settings: &LineSettings,
     look: &StrokeLook<'_>,
 ) -> Vec<Stroke> {
-    strokes_of(calmed(runs, settings, lens), &|run, point| {
+    strokes_of(calmed(runs, settings, lens, None), &|run, point| {
         look.paint(shape, run, point)
     })
 }

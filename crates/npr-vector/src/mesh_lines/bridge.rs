@@ -3,7 +3,8 @@
 //! Where a fold is shallow, as between lips, its contour ends in a cusp and begins anew a little farther on. A pen that
 //! comes from one of them to the other is not lifted between.
 
-use crate::mesh_lines::merge::{Meetings, ends_of, join};
+use crate::mesh_lines::joints::{Bond, JoiningStep, JointsInView};
+use crate::mesh_lines::merge::{Meetings, ends_of, join, tips_of};
 use crate::mesh_lines::run::Run;
 use crate::stroke::Kind;
 use glam::DVec2;
@@ -20,34 +21,74 @@ const STRAIGHT_COS: f64 = 0.94;
 /// How far other lines stay away from the gap, in pixels: one that comes nearer may hide what is between.
 const CLEAR_PX: f64 = 4.0;
 
+/// The limits within which a gap is bridged.
+struct Limits {
+    /// Factor on the widest gap.
+    reach: f64,
+    /// As [`BRIDGED_SHARE`].
+    share: f64,
+    /// As [`STRAIGHT_COS`].
+    straight_cos: f64,
+    /// As [`CLEAR_PX`].
+    clear_px: f64,
+}
+
+impl Limits {
+    /// The limits for two ends, by what they were in the frame before.
+    fn of(bond: Bond) -> Self {
+        let [reach, share, straight_cos, clear_px] = match bond {
+            Bond::New => [1.0, BRIDGED_SHARE, STRAIGHT_COS, CLEAR_PX],
+            Bond::Joined => [1.3, 0.9, 0.88, 2.5],
+            Bond::Apart => [0.75, 0.6, 0.965, 5.0],
+        };
+        Self {
+            reach,
+            share,
+            straight_cos,
+            clear_px,
+        }
+    }
+}
+
 /// Visible contours joined across gaps of up to 20 pixels, the narrowest first.
 ///
 /// Both ends point at each other within 20 degrees, no other visible line comes within 4 pixels of the gap, and it is
 /// at most three quarters as long as the shorter of both lines. Otherwise as
-/// [`merge_ends`](super::merge::merge_ends). O(n log n + gaps · runs).
-pub(crate) fn bridge_gaps(runs: Vec<Run>) -> Vec<Run> {
+/// [`merge_ends`](super::merge::merge_ends). After a frame that joints hold to these limits have margins.
+/// O(n log n + gaps · runs).
+pub(crate) fn bridge_gaps(runs: Vec<Run>, held: Option<&mut JointsInView<'_>>) -> Vec<Run> {
     // Find gaps between ends that point at each other.
     let ends = ends_of(&runs);
-    let meetings = Meetings::new(&runs, &ends, BRIDGED_PX);
+    let tips = tips_of(&ends);
+    let bonds = held
+        .as_ref()
+        .map(|held| held.bonds(JoiningStep::Bridged, &runs, &tips));
+    let bonds = bonds.unwrap_or_default();
+    let meetings = Meetings::new(&runs, &ends, BRIDGED_PX, &bonds);
     let faces = |[a, b]: [usize; 2]| -> Option<Gap> {
         let (end_a, end_b) = (ends[a].as_ref()?, ends[b].as_ref()?);
         let [from, to] = [end_a, end_b].map(|end| DVec2::from(end.place));
         let [out_a, out_b] = [end_a, end_b].map(|end| DVec2::from(end.out));
         let (length, across) = ((to - from).length(), to - from);
+        let limits = Limits::of(bonds.of([a, b]));
         let aims = [out_a, -out_b]
             .iter()
-            .all(|out| out.dot(across) >= STRAIGHT_COS * length);
-        let is_fit = aims && -out_a.dot(out_b) >= STRAIGHT_COS && meetings.may_join([a, b]);
+            .all(|out| out.dot(across) >= limits.straight_cos * length);
+        let is_fit = aims
+            && length <= limits.reach * BRIDGED_PX
+            && -out_a.dot(out_b) >= limits.straight_cos
+            && meetings.may_join([a, b]);
         let runs = [a, b].map(|end| &runs[end / 2]);
         let is_contour =
             |run: &&Run| run.kind == Kind::Contour && run.occluders == 0 && !run.closed;
-        let is_long = |run: &&Run| length <= BRIDGED_SHARE * run.length();
+        let is_long = |run: &&Run| length <= limits.share * run.length();
         let is_so =
             is_fit && a / 2 != b / 2 && runs.iter().all(|run| is_contour(run) && is_long(run));
         is_so.then_some(Gap {
             ends: [a, b],
             from,
             to,
+            clear_px: limits.clear_px,
         })
     };
     let mut gaps: Vec<Gap> = meetings
@@ -59,7 +100,7 @@ pub(crate) fn bridge_gaps(runs: Vec<Run>) -> Vec<Run> {
     // Join across those in which nothing else is.
     gaps.sort_by(|a, b| a.length().total_cmp(&b.length()).then(a.ends.cmp(&b.ends)));
     let boxes: Vec<[DVec2; 2]> = match gaps.is_empty() {
-        true => return runs,
+        true => Vec::new(),
         false => runs.iter().map(bounds_of).collect(),
     };
     let mut mates = vec![usize::MAX; ends.len()];
@@ -70,7 +111,13 @@ pub(crate) fn bridge_gaps(runs: Vec<Run>) -> Vec<Run> {
             mates[b] = a;
         }
     }
-    join(runs, &mates)
+    if let Some(held) = held {
+        held.remember(JoiningStep::Bridged, (&runs, &tips), &mates, &bonds);
+    }
+    match boxes.is_empty() {
+        true => runs,
+        false => join(runs, &mates),
+    }
 }
 
 /// A gap between two ends of runs.
@@ -78,6 +125,8 @@ struct Gap {
     ends: [usize; 2],
     from: DVec2,
     to: DVec2,
+    /// How far other lines stay away from it, in pixels.
+    clear_px: f64,
 }
 
 impl Gap {
@@ -88,8 +137,8 @@ impl Gap {
     /// Whether no visible run comes near it but those that it lies between.
     fn is_clear(&self, runs: &[Run], boxes: &[[DVec2; 2]]) -> bool {
         let [low, high] = [
-            self.from.min(self.to) - CLEAR_PX,
-            self.from.max(self.to) + CLEAR_PX,
+            self.from.min(self.to) - self.clear_px,
+            self.from.max(self.to) + self.clear_px,
         ];
         let others = runs
             .iter()
@@ -105,7 +154,7 @@ impl Gap {
             let next = run.points.iter().skip(1).chain(back);
             let mut pieces = run.points.iter().zip(next);
             pieces.all(|(a, b)| {
-                self.distance_to(DVec2::from(a.place), DVec2::from(b.place)) > CLEAR_PX
+                self.distance_to(DVec2::from(a.place), DVec2::from(b.place)) > self.clear_px
             })
         })
     }

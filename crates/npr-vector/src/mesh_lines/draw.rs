@@ -20,6 +20,7 @@ pub use prepared::{FindCrossings, Prepared};
 pub use spines::spines;
 
 use crate::mesh_lines::contour::{EdgeContours, Eye};
+use crate::mesh_lines::joints::HeldJoints;
 use crate::mesh_lines::puff::SmokeLines;
 use crate::mesh_lines::run_assembly::runs;
 use crate::mesh_lines::suppressed_edges::{edges_beside, suppressed_edges};
@@ -62,7 +63,6 @@ pub fn strokes(
 ) -> Vec<Stroke> {
     // Find contours as seen from the eye.
     let contours = EdgeContours::new(shape, &eye_of(shape, projector));
-    let smoke = None;
     let look = StrokeLook {
         width_at,
         paint_at: None,
@@ -75,7 +75,13 @@ pub fn strokes(
         ..settings.clone()
     };
     let found = strokes_with(
-        shape, prepared, projector, &settings, &contours, &look, smoke,
+        shape,
+        prepared,
+        projector,
+        &settings,
+        &contours,
+        &look,
+        (None, None),
     );
     found.expect("no limit is set").strokes
 }
@@ -85,6 +91,9 @@ pub fn strokes(
 /// Dense smoke hides lines of the shape and counts as one surface; its own outline comes after them. Where lines lie
 /// so close that the paper is black, further ones are left out: those over it whose edges have the greater hashes
 /// ([`hash_key`](crate::rank::hash_key)), whatever the number of threads.
+///
+/// `held` has the joints of the frame before, if there is one, and those of this frame afterwards: ends of lines that
+/// were joined stay so beyond the limits, and those left apart stay so within, by a margin. Smoke does not hold.
 ///
 /// # Errors
 ///
@@ -96,7 +105,7 @@ pub fn strokes_with(
     settings: &LineSettings,
     contours: &EdgeContours,
     look: &StrokeLook<'_>,
-    smoke: Option<&SmokeLines<'_>>,
+    (smoke, held): (Option<&SmokeLines<'_>>, Option<&mut HeldJoints>),
 ) -> Result<ViewStrokes, OverBudget> {
     let EdgeContours {
         front,
@@ -174,7 +183,8 @@ pub fn strokes_with(
 
     // Make strokes, with the outline of smoke after them.
     let lens = projector.lens();
-    let mut strokes = painted(calmed(found, settings, lens), shape, look, lens);
+    let held = held.map(|held| held.in_view(shape, projector));
+    let mut strokes = painted(calmed(found, settings, lens, held), shape, look, lens);
     if let Some(smoke) = smoke {
         let seen = Seen {
             extra: None,

@@ -2,11 +2,17 @@
 //!
 //! Noise in the orientation of faces breaks one outline into loops that touch; to the eye it is one line. A pen goes
 //! on where ends face each other, where they run past each other side by side, and around a corner that nothing else
-//! leaves.
+//! leaves. Where a frame was drawn before, what it joined stays joined, and what it left apart stays apart, by a margin.
+
+mod limits;
+
+pub use limits::{DEPTH_SHARE, STRAIGHT_COS};
 
 use crate::mesh_lines::corner::start_at_head;
+use crate::mesh_lines::joints::{Bonds, JoiningStep, JointsInView, Tip};
 use crate::mesh_lines::near::cell_of;
 use crate::mesh_lines::run::{Run, RunPoint, distance};
+use limits::Limits;
 use std::collections::BTreeMap;
 
 /// Greatest distance of two ends that only noise separates, in pixels: the width of a pen, within which nobody tells
@@ -23,23 +29,8 @@ pub const FACING_PX: f64 = 8.0;
 /// Length in pixels under which a run is a dot: the direction of its ends is noise.
 pub(crate) const DOT_PX: f64 = 8.0;
 
-/// Cosine of the largest bend where two runs are joined, and of the largest angle between an end and the gap it is
-/// joined across.
-pub const STRAIGHT_COS: f64 = 0.85;
-
-/// The same cosine where one of the runs is a dot and both touch; dots that do not touch are meant as such, like the
-/// holes of a belt.
-const DOT_COS: f64 = 0.0;
-
-/// Cosine of the largest turn at a corner; lines that come back more sharply are two.
-const CORNER_COS: f64 = -0.5;
-
 /// Cost of a corner: more than that of any two ends that go the same way.
 const CORNER_COST: f64 = 10.0;
-
-/// Largest difference in depth where two runs are joined, as a share of the depth: where surfaces turn away, depth
-/// changes by that within few pixels.
-pub const DEPTH_SHARE: f64 = 0.03;
 
 /// Most ends in one cell as wide as the reach; more stay as they are, since nobody could tell which continues which.
 const ENDS_MOST: usize = 128;
@@ -54,9 +45,26 @@ const DIRECTION_PX: f64 = 6.0;
 /// ends are joined whose tips are within 4.5 pixels and that no third one of the kind and object comes as near. The
 /// result keeps the order of the runs' first members, and runs the way of the one with the least id, whichever comes
 /// first. Ends that were cut at corners stay apart, and so do those of more than 128 in one place. O(n log n).
-pub fn merge_ends(mut runs: Vec<Run>, reach_px: f64) -> Vec<Run> {
+pub fn merge_ends(runs: Vec<Run>, reach_px: f64) -> Vec<Run> {
+    merge_held(runs, reach_px, None)
+}
+
+/// As [`merge_ends`], after a frame that joints hold to, if any: there limits have margins ([`Limits`]).
+pub(crate) fn merge_held(
+    mut runs: Vec<Run>,
+    reach_px: f64,
+    held: Option<(JoiningStep, &mut JointsInView<'_>)>,
+) -> Vec<Run> {
     let ends = ends_of(&runs);
-    let mates = mates(&Meetings::new(&runs, &ends, reach_px));
+    let tips = tips_of(&ends);
+    let bonds = held
+        .as_ref()
+        .map(|(step, held)| held.bonds(*step, &runs, &tips));
+    let bonds = bonds.unwrap_or_default();
+    let mates = mates(&Meetings::new(&runs, &ends, reach_px, &bonds));
+    if let Some((step, held)) = held {
+        held.remember(step, (&runs, &tips), &mates, &bonds);
+    }
     trim(&mut runs, &ends, &mates);
     join(runs, &mates)
 }
@@ -78,6 +86,15 @@ fn mates(meetings: &Meetings<'_>) -> Vec<usize> {
 
 pub(super) fn ends_of(runs: &[Run]) -> Vec<Option<End>> {
     (0..2 * runs.len()).map(|end| End::new(runs, end)).collect()
+}
+
+/// Where ends lie, and which way they point.
+pub(super) fn tips_of(ends: &[Option<End>]) -> Vec<Option<Tip>> {
+    let tip = |end: &End| Tip {
+        place: end.place,
+        out: end.out,
+    };
+    ends.iter().map(|end| end.as_ref().map(tip)).collect()
 }
 
 /// An end of an open run; end `2 r` is the first point of run `r`, `2 r + 1` its last.
@@ -158,6 +175,9 @@ fn near_pairs(ends: &[Option<End>], reach_px: f64) -> Vec<[usize; 2]> {
 pub(super) struct Meetings<'a> {
     runs: &'a [Run],
     ends: &'a [Option<End>],
+    /// What they were in the frame before.
+    bonds: &'a Bonds,
+    reach_px: f64,
     /// Their numbers, the lower one first.
     pub pairs: Vec<[usize; 2]>,
     /// For each end, how many others of its kind and object come as near as the ends of a corner.
@@ -165,18 +185,29 @@ pub(super) struct Meetings<'a> {
 }
 
 impl<'a> Meetings<'a> {
-    pub fn new(runs: &'a [Run], ends: &'a [Option<End>], reach_px: f64) -> Self {
+    pub fn new(runs: &'a [Run], ends: &'a [Option<End>], reach_px: f64, bonds: &'a Bonds) -> Self {
+        // Find what is near, and what was joined.
+        let mut pairs = near_pairs(ends, reach_px);
+        if !bonds.is_empty() {
+            pairs.extend(bonds.joined());
+            pairs.sort_unstable();
+            pairs.dedup();
+        }
         let mut found = Self {
             runs,
             ends,
-            pairs: near_pairs(ends, reach_px),
+            bonds,
+            reach_px,
+            pairs,
             beside: vec![0; ends.len()],
         };
+
+        // Count what meets at a corner.
         for [a, b] in &found.pairs {
             let (run_a, run_b) = (&runs[a / 2], &runs[b / 2]);
             let alike = run_a.kind == run_b.kind && run_a.object == run_b.object;
             let gap = found.gap([*a, *b]);
-            if alike && gap.is_some_and(|gap| gap <= CORNER_PX) {
+            if alike && gap.is_some_and(|gap| gap <= CORNER_PX.min(reach_px)) {
                 found.beside[*a] += 1;
                 found.beside[*b] += 1;
             }
@@ -189,49 +220,63 @@ impl<'a> Meetings<'a> {
         Some(distance(end_a.place, end_b.place))
     }
 
+    /// The limits within which two ends are joined.
+    pub fn limits(&self, pair: [usize; 2]) -> Limits {
+        Limits::of(self.bonds.of(pair))
+    }
+
     /// Whether the lines of two ends are alike, and both lie about as deep.
     pub fn may_join(&self, [a, b]: [usize; 2]) -> bool {
         let (Some(end_a), Some(end_b)) = (&self.ends[a], &self.ends[b]) else {
             return false;
         };
-        let near = (end_a.depth - end_b.depth).abs() <= DEPTH_SHARE * end_a.depth.abs();
-        near && self.runs[a / 2].may_join(&self.runs[b / 2])
+        let most = self.limits([a, b]).depth_share * end_a.depth.abs();
+        (end_a.depth - end_b.depth).abs() <= most && self.runs[a / 2].may_join(&self.runs[b / 2])
     }
 
     /// How badly two ends fit; `None` where they must not be joined.
     fn cost(&self, [a, b]: [usize; 2]) -> Option<f64> {
+        // Leave out what is not alike.
         let run_a = &self.runs[a / 2];
         let (end_a, end_b) = (self.ends[a].as_ref()?, self.ends[b].as_ref()?);
         let same = a / 2 == b / 2;
         if !self.may_join([a, b]) || (same && run_a.length() < 4.0 * DIRECTION_PX) {
             return None;
         }
+
+        // Look whether one goes on as the other, or they meet at a corner.
+        let limits = self.limits([a, b]);
         let gap = self.gap([a, b])?;
         let straight = -dot(end_a.out, end_b.out);
-        let cost = gap / TOUCHING_PX + (1.0 - straight);
-        let alone = self.beside[a] == 1 && self.beside[b] == 1;
-        let at_corner = alone && gap <= CORNER_PX && straight >= CORNER_COS && !same;
-        match go_on(end_a, end_b) {
+        let is_near = gap <= limits.reach * self.reach_px;
+        let cost = gap / TOUCHING_PX + (1.0 - straight) - limits.favour;
+        let alone = limits.is_joined || self.beside[a] == 1 && self.beside[b] == 1;
+        let at_corner =
+            alone && gap <= limits.reach * CORNER_PX && straight >= limits.corner_cos && !same;
+        match is_near && go_on(end_a, end_b, &limits) {
             true => Some(cost),
-            false => at_corner.then_some(CORNER_COST + cost),
+            false => (is_near && at_corner).then_some(CORNER_COST + cost),
         }
     }
 }
 
 /// Whether one end continues the other: they touch, point at each other, or have run past each other side by side.
-fn go_on(a: &End, b: &End) -> bool {
+fn go_on(a: &End, b: &End, limits: &Limits) -> bool {
     let gap = distance(a.place, b.place);
     let straight = -dot(a.out, b.out);
-    if gap <= TOUCHING_PX && (a.is_dot || b.is_dot) {
-        return straight >= DOT_COS;
+    let touching_px = limits.reach * TOUCHING_PX;
+    if gap <= touching_px && (a.is_dot || b.is_dot) {
+        return straight >= limits.dot_cos;
     }
     let across = [0, 1].map(|i| b.place[i] - a.place[i]);
     let ahead = [dot(across, a.out), -dot(across, b.out)];
-    let aim = ahead.iter().all(|ahead| *ahead >= STRAIGHT_COS * gap);
+    let aim = ahead
+        .iter()
+        .all(|ahead| *ahead >= limits.straight_cos * gap);
     // How far each lies beside the line of the other.
-    let beside = |ahead: &f64| *ahead <= 0.0 && gap * gap - ahead * ahead <= TOUCHING_PX.powi(2);
-    let facing = gap <= TOUCHING_PX || aim || ahead.iter().all(beside);
-    facing && straight >= STRAIGHT_COS
+    let beside = |ahead: &f64| *ahead <= 0.0 && gap * gap - ahead * ahead <= touching_px.powi(2);
+    let facing = gap <= touching_px || aim || ahead.iter().all(beside);
+    facing && straight >= limits.straight_cos
 }
 
 fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
@@ -452,7 +497,8 @@ mod tests {
         fn mates_choose_each_other(runs in crowd(), far: bool) {
             let reach = if far { FACING_PX } else { TOUCHING_PX };
             let ends = ends_of(&runs);
-            let meetings = Meetings::new(&runs, &ends, reach);
+            let bonds = Bonds::default();
+            let meetings = Meetings::new(&runs, &ends, reach, &bonds);
             let mates = mates(&meetings);
             let cost_of = |a: usize, b: usize| match b {
                 usize::MAX => f64::INFINITY,
@@ -474,7 +520,7 @@ mod tests {
         fn what_differs_is_never_joined(runs in crowd(), far: bool) {
             let reach = if far { FACING_PX } else { TOUCHING_PX };
             let ends = ends_of(&runs);
-            for (a, b) in mates(&Meetings::new(&runs, &ends, reach)).into_iter().enumerate() {
+            for (a, b) in mates(&Meetings::new(&runs, &ends, reach, &Bonds::default())).into_iter().enumerate() {
                 if b == usize::MAX {
                     continue;
                 }

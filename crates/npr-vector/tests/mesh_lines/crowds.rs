@@ -46,7 +46,13 @@ fn drawn(
         is_lit: false,
     };
     strokes_with(
-        shape, &prepared, &projector, &settings, &contours, &look, None,
+        shape,
+        &prepared,
+        &projector,
+        &settings,
+        &contours,
+        &look,
+        (None, None),
     )
 }
 

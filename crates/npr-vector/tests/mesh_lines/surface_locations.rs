@@ -73,7 +73,13 @@ fn off_px(mesh: &Mesh, eye: [f32; 3], settings: &LineSettings) -> f64 {
     };
     let contours = EdgeContours::new(&shape, &eye_of(&shape, &projector));
     let found = strokes_with(
-        &shape, &prepared, &projector, settings, &contours, &look, None,
+        &shape,
+        &prepared,
+        &projector,
+        settings,
+        &contours,
+        &look,
+        (None, None),
     );
     assert!(!found.expect("no limit is set").strokes.is_empty());
     let all = all.into_inner().expect("no panic");

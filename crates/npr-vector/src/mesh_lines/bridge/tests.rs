@@ -16,7 +16,7 @@ fn contour(id: u64, from: [f64; 2], to: [f64; 2]) -> Run {
 
 fn joins(runs: Vec<Run>) -> bool {
     let before = runs.len();
-    bridge_gaps(runs).len() < before
+    bridge_gaps(runs, None).len() < before
 }
 
 #[test]
@@ -24,7 +24,7 @@ fn a_pen_comes_from_one_cusp_to_the_next() {
     let lip = contour(1, [0.0, 0.0], [30.0, 0.0]);
     let other = contour(2, [46.0, 1.0], [90.0, 0.0]);
     let both = vec![lip.clone(), other.clone()];
-    let joined = bridge_gaps(both.clone());
+    let joined = bridge_gaps(both.clone(), None);
     assert_eq!((joined.len(), joined[0].id), (1, 1));
     assert_eq!(
         joined[0].points.len(),
@@ -86,7 +86,7 @@ fn of_two_gaps_at_an_end_the_narrower_is_bridged() {
     let lip = contour(1, [0.0, 0.0], [40.0, 0.0]);
     let near = contour(2, [52.0, 2.0], [100.0, 2.0]);
     let far = contour(3, [58.0, -3.0], [100.0, -3.0]);
-    let joined = bridge_gaps(vec![far.clone(), lip, near]);
+    let joined = bridge_gaps(vec![far.clone(), lip, near], None);
     assert_eq!(joined.len(), 2);
     assert_eq!(joined[0], far);
 }

@@ -100,7 +100,7 @@ impl SmokeLines<'_> {
             ..HalfEdgeMesh::default()
         };
         let found = runs(&smoke, seen.projector, &graph, (&lines, settings.hidden));
-        let mut found = calmed(found, settings, seen.projector.lens());
+        let mut found = calmed(found, settings, seen.projector.lens(), None);
         for run in &mut found {
             run.id |= SMOKE_ID;
             run.surface = self.surface;
