@@ -412,7 +412,9 @@ fn draw_frames(
             let steps = steps(&frames.numbers, screening.done(), holds);
             screening.show_each(steps, |Step { number, passed }| {
                 let warning = playing.pose(&mut scene, number);
+                let movement = playing.movement(&mut scene, number, &job.look.style)?;
                 renderer.set_pose(&scene)?;
+                renderer.set_movement(movement);
                 let camera = way.at(number, &scene)?;
                 if passed {
                     renderer.pass(&camera)?;
@@ -472,7 +474,9 @@ fn draw_lines(
                 let mut notices = Vec::new();
                 if let Some(playing) = &frames.playing {
                     notices.extend(playing.pose(&mut scene, number));
+                    let movement = playing.movement(&mut scene, number, &job.look.style)?;
                     renderer.set_pose(&scene)?;
+                    renderer.set_movement(movement);
                 }
                 let camera = way.at(number, &scene)?;
                 if passed {

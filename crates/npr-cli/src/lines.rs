@@ -24,10 +24,11 @@ use npr_core::geometry::Part;
 use npr_drawing::artwork::StrokeBrushes;
 use npr_gpu::engine::{Engine, PassTime};
 use npr_render::{
-    Drawing, Kind, LineModel, LineModelOptions, LineRenderer, LineSource, Model, Smoke, facts_of,
+    Drawing, Kind, LineModel, LineModelOptions, LineRenderer, LineSource, Model, Movement, Smoke,
+    facts_of,
 };
 use npr_scene::{Limits, Scene};
-use npr_stylesheet::Background;
+use npr_stylesheet::{Background, Style};
 use std::io::Write;
 
 /// Draws the lines that the user asked for, or prints the style.
@@ -107,6 +108,8 @@ pub struct Prepared {
     pub smoke: Option<Smoke>,
     /// What all of it was made of, in the same pose.
     pub scene: Scene,
+    /// Where everything was before, where lines follow motion.
+    movement: Option<Movement>,
 }
 
 impl Prepared {
@@ -137,10 +140,11 @@ impl Prepared {
     fn pose(
         &mut self,
         args: &PoseArguments,
-        limits: &Limits,
+        (style, limits): (&Style, &Limits),
         progress: &mut Progress,
     ) -> Result<Vec<String>, Fault> {
-        let posed = pose::pose((args, false), &mut self.scene, limits)?;
+        let posed = pose::pose((args, false), &mut self.scene, style, limits)?;
+        self.movement = posed.movement;
         if posed.is_posed {
             progress.step("pose", || {
                 self.lines.set_pose(&self.scene)?;
@@ -157,7 +161,8 @@ impl Prepared {
         engine: &'a dyn Engine,
         job: &'a LineJob<'_>,
     ) -> LineRenderer<'a> {
-        let renderer = LineRenderer::new(engine, &self.lines);
+        let mut renderer = LineRenderer::new(engine, &self.lines);
+        renderer.set_movement(self.movement.clone());
         match (&self.behind, &job.backdrop) {
             (Some(model), Some(options)) => renderer.with_backdrop(model, options),
             _ => renderer,
@@ -249,7 +254,7 @@ pub fn prepare(
 
     // Pose it.
     let of_pose = match pose {
-        Some(args) => prepared.pose(args, &job.limits, progress)?,
+        Some(args) => prepared.pose(args, (&job.look.style, &job.limits), progress)?,
         None => Vec::new(),
     };
 
@@ -299,6 +304,7 @@ fn prepared(job: &LineJob<'_>, scene: Scene, smoke: Option<Smoke>) -> Result<Pre
         brushes,
         smoke,
         scene,
+        movement: None,
     })
 }
 

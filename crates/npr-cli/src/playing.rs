@@ -5,8 +5,9 @@ use crate::fault::Fault;
 use crate::pose::{self, Stance};
 use crate::viewpoint::Staged;
 use npr_core::camera::{Camera, bounds_of, box_corners};
-use npr_render::Smoke;
+use npr_render::{Movement, RenderError, Smoke};
 use npr_scene::{Limits, Scene};
+use npr_stylesheet::Style;
 
 /// Fewest and most moments of a clip that a camera is placed by.
 const LOOKS: [usize; 2] = [8, 32];
@@ -57,8 +58,23 @@ impl Playing {
 
     /// Poses the scene as it stands in a frame, and gives what there is to warn of.
     pub fn pose(&self, scene: &mut Scene, frame: u32) -> Option<String> {
-        let time_s = f64::from(frame) / f64::from(self.fps);
-        self.stance.stand(scene, time_s as f32)
+        self.stance.stand(scene, self.time_s(frame))
+    }
+
+    /// Where everything in the scene was before a frame, as far as a style follows motion. The scene stands as in that
+    /// frame, before and after.
+    pub fn movement(
+        &self,
+        scene: &mut Scene,
+        frame: u32,
+        style: &Style,
+    ) -> Result<Option<Movement>, RenderError> {
+        self.stance.movement(scene, self.time_s(frame), style)
+    }
+
+    /// The time of the clip in a frame, in seconds.
+    fn time_s(&self, frame: u32) -> f32 {
+        (f64::from(frame) / f64::from(self.fps)) as f32
     }
 
     /// What is seen of the scene in the whole clip, with the smoke in it: a camera that is placed by it stands still,

@@ -5,10 +5,12 @@ use crate::fault::{Exit, Fault};
 use crate::input::read_file;
 use crate::message::{self, quoted};
 use crate::source::{Loaded, Source};
+use npr_render::{Movement, RenderError};
 use npr_scene::{
     Bone, Clip, Limits, MotionError, Notice, Pose, Posture, PostureError, PostureFault, Property,
     Scene,
 };
+use npr_stylesheet::Style;
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -128,23 +130,44 @@ impl Stance {
             None => format!("the scene rests: {fault}"),
         })
     }
+
+    /// Where everything in a scene was before a time of the clip, in seconds, as far as a style follows motion; none
+    /// without a clip. The scene stands as at that time, before and after.
+    pub fn movement(
+        &self,
+        scene: &mut Scene,
+        time_s: f32,
+        style: &Style,
+    ) -> Result<Option<Movement>, RenderError> {
+        if self.clip.is_none() {
+            return Ok(None);
+        }
+        Movement::of_style(scene, style, |scene, before_s| {
+            self.stand(scene, time_s - before_s);
+        })
+    }
 }
 
 /// A scene that was posed.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default)]
 pub struct Posed {
     /// Whether the user asked for another pose than the one at rest.
     pub is_posed: bool,
+    /// Where everything was before, where a clip plays and the style follows motion.
+    pub movement: Option<Movement>,
     /// What there is to warn of.
     pub warnings: Vec<String>,
 }
 
-/// Poses the scene as the user asked for; `flows` is whether pictures on its surfaces move in time, besides clips.
+/// Poses the scene as the user asked for, in a style that may follow motion; `flows` is whether pictures on its surfaces
+/// move in time, besides clips.
 pub fn pose(
     (args, flows): (&PoseArguments, bool),
     scene: &mut Scene,
+    style: &Style,
     limits: &Limits,
 ) -> Result<Posed, Fault> {
+    // Take the pose.
     let clip = clip_of(args, scene)?;
     let stance = Stance::of(args, scene, clip, limits)?;
     let is_posed = !stance.is_rest();
@@ -153,8 +176,15 @@ pub fn pose(
         let why = why_at_rest(args, scene.clips.len(), is_posed);
         warnings.extend(why.filter(|_| !flows || args.time.is_none()));
     }
-    warnings.extend(stance.stand(scene, args.time.unwrap_or(0.0)));
-    Ok(Posed { is_posed, warnings })
+    let time_s = args.time.unwrap_or(0.0);
+    warnings.extend(stance.stand(scene, time_s));
+
+    // See where everything was.
+    Ok(Posed {
+        is_posed,
+        movement: stance.movement(scene, time_s, style)?,
+        warnings,
+    })
 }
 
 /// Warns of what needs a figure, for a picture without any scene.
@@ -358,7 +388,9 @@ mod tests {
     #[test]
     fn a_scene_at_rest_is_told_of_once_it_has_clips() {
         let told = |names: &[&str], args: &PoseArguments| {
-            pose((args, false), &mut scene(names), &Limits::default()).map(|posed| posed.warnings)
+            let style = Style::default();
+            pose((args, false), &mut scene(names), &style, &Limits::default())
+                .map(|posed| posed.warnings)
         };
         let rest = PoseArguments::default();
         assert_eq!(told(&[], &rest), Ok(vec![]));

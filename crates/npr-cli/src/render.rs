@@ -14,7 +14,7 @@ use crate::lines;
 use crate::look::Look;
 use crate::message;
 use crate::output::{Output, print};
-use crate::pose;
+use crate::pose::{self, Posed};
 use crate::progress::Progress;
 use crate::source::Loaded;
 use crate::timings::{DRAW, Timings};
@@ -23,8 +23,8 @@ use crate::volume::{self, Order};
 use npr_core::camera::Camera;
 use npr_gpu::engine::Engine;
 use npr_render::{
-    Frame, LineModelOptions, Model, RenderError, Renderer, RendererOptions, Smoke, Subject,
-    facts_of,
+    Frame, LineModelOptions, Model, Movement, RenderError, Renderer, RendererOptions, Smoke,
+    Subject, facts_of,
 };
 use npr_scene::{Limits, Scene};
 use npr_stylesheet::{Facts, Occasion, SceneHint, Style};
@@ -177,6 +177,8 @@ pub struct Prepared {
     pub scene: Scene,
     /// Whether that is another pose than the one at rest.
     is_posed: bool,
+    /// Where everything was before, where lines follow motion.
+    movement: Option<Movement>,
     /// Seconds after which pictures on surfaces are drawn.
     seconds: f32,
 }
@@ -205,6 +207,7 @@ impl Prepared {
         if self.is_posed {
             renderer.set_pose(&self.scene)?;
         }
+        renderer.set_movement(self.movement.clone());
         if self.seconds != 0.0 {
             renderer.flow_textures(self.seconds)?;
         }
@@ -247,11 +250,10 @@ pub fn prepare(
     let subject = prepared(&scene, style, &limits, cache, progress)?;
 
     // Pose the scene.
-    let (mut of_pose, mut is_posed, mut seconds) = (Vec::new(), false, 0.0);
+    let (mut posed, mut seconds) = (Posed::default(), 0.0);
     if let Some(args) = pose {
         let flows = moves_pictures(style, &scene);
-        let posed = pose::pose((args, flows), &mut scene, &limits)?;
-        (of_pose, is_posed) = (posed.warnings, posed.is_posed);
+        posed = pose::pose((args, flows), &mut scene, style, &limits)?;
         seconds = args.time.unwrap_or(0.0);
     }
 
@@ -260,13 +262,17 @@ pub fn prepare(
     progress.suspend(|| {
         warn_of(job, &subject.model, reported.notices.iter());
         warn_of_idle(&job.look, facts, job.args.drawing.quiet);
-        message::warn_all(job.args.drawing.quiet, of_pose.iter().chain(&of_volumes));
+        message::warn_all(
+            job.args.drawing.quiet,
+            posed.warnings.iter().chain(&of_volumes),
+        );
     });
     Ok(Prepared {
         subject,
         smoke,
         scene,
-        is_posed,
+        is_posed: posed.is_posed,
+        movement: posed.movement,
         seconds,
     })
 }

@@ -19,5 +19,6 @@ pub fn facts_of(scene: &Scene, smoke: bool) -> Facts {
             .materials
             .iter()
             .any(|material| material.toon.is_some()),
+        clips: !scene.clips.is_empty(),
     }
 }

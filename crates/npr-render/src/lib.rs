@@ -52,6 +52,7 @@ mod lines;
 mod look;
 mod manners;
 mod model;
+mod movement;
 mod options;
 mod part_info;
 mod part_toon;
@@ -67,6 +68,7 @@ mod surfaces;
 mod textures;
 mod tiles;
 mod toon;
+mod trails;
 
 #[cfg(feature = "wgpu")]
 pub use device::{EmbeddedRenderer, HostView};
@@ -81,6 +83,7 @@ pub use lines::{
     PaintedLines,
 };
 pub use model::Model;
+pub use movement::Movement;
 pub use npr_core::smoke::Sphere;
 pub use npr_drawing::lettering::Font;
 pub use npr_vector::stroke::{Drawing, Kind};

@@ -14,17 +14,22 @@ use crate::layer_pixel::LayerPixel;
 use crate::lines::LineRenderer;
 use crate::look::StyledModel;
 use crate::model::Model;
+use crate::movement::Movement;
 use crate::options::{RendererOptions, check_size};
 use crate::part_info::PartInfo;
 use crate::smoke::Smoke;
 use crate::surfaces::Surfaces;
 use crate::tiles::Tiles;
+use crate::trails::find_trails;
 use npr_core::budget::Budget;
 use npr_core::camera::Camera;
+use npr_drawing::artwork::{ArtworkOptions, Mark, arrange};
+use npr_drawing::drawing::paint_over;
 use npr_gpu::cost::PassCost;
 use npr_gpu::engine::{Engine, IN_FLIGHT};
 use npr_scene::Scene;
 use npr_stylesheet::{SceneHint, Style};
+use npr_vector::stroke::Drawing;
 use std::borrow::Cow;
 
 /// The style that frames without a line model are drawn in, with what they tell where it is another one.
@@ -49,6 +54,8 @@ pub struct Renderer<'a> {
     /// The look that shows through, and how much of it.
     blended: Option<(Box<Renderer<'a>>, Blending)>,
     lettering: Lettering,
+    /// Where everything was before, where lines follow motion.
+    movement: Option<Movement>,
     /// Called after every tile with the numbers of tiles done and of all.
     tell: Option<&'a dyn Fn(usize, usize)>,
 }
@@ -56,6 +63,7 @@ pub struct Renderer<'a> {
 /// A frame that is being drawn, and what finishing it needs: the renderer may be told of the next one meanwhile.
 pub(crate) struct Begun {
     aimed: Aimed,
+    camera: Camera,
     /// How its strokes were found.
     strokes: StrokeReport,
     /// What every pixel shows of strokes, where layers have that.
@@ -163,6 +171,7 @@ impl<'a> RendererPlan<'a> {
             speed_lines: self.speed_lines,
             blended,
             lettering: self.lettering,
+            movement: None,
             tell: None,
         })
     }
@@ -268,6 +277,16 @@ impl<'a> Renderer<'a> {
             Some((other, _)) => other.set_pose(scene),
             None => Ok(()),
         }
+    }
+
+    /// Where everything was before the pose that is drawn: frames have the speed lines of `motion.follow` along that way
+    /// from now on, in both looks of a blend. They are the strokes that
+    /// [`LineRenderer::set_movement`](crate::LineRenderer::set_movement) adds to drawings, and the same on any engine.
+    pub fn set_movement(&mut self, movement: Option<Movement>) {
+        if let Some((other, _)) = &mut self.blended {
+            other.set_movement(movement.clone());
+        }
+        self.movement = movement;
     }
 
     /// Draws frames of a film from now on: strokes hold to those of the frame before, in both looks of a blend, as
@@ -449,6 +468,7 @@ impl<'a> Renderer<'a> {
         };
         Ok(Begun {
             aimed,
+            camera: *camera,
             strokes,
             stroke_places,
             other,
@@ -523,6 +543,12 @@ impl<'a> Renderer<'a> {
         if let Some(speed_lines) = &self.speed_lines {
             speed_lines.finish(&self.model, view, frame);
         }
+        if let Some(movement) = &self.movement {
+            let FramePlan { style, options, .. } = &frames.plan;
+            let of_page = (options.stroke_size(), options.stroke_dpi());
+            let lines = find_trails(movement, (&begun.camera, style), of_page);
+            lay_strokes_over(lines.enlarged(options.enlarged), frame);
+        }
         if let (Some((other, blending)), Some(begun)) = (&mut self.blended, begun.other) {
             blending.finish(&other.finish(*begun)?, frame);
         }
@@ -536,11 +562,19 @@ impl<'a> Renderer<'a> {
     }
 }
 
+/// Paints the strokes of a drawing over a frame, as files have them.
+fn lay_strokes_over(drawing: Drawing, frame: &mut Frame) {
+    let artwork = arrange(&drawing, &ArtworkOptions::default());
+    let groups = artwork.layers.into_iter().flat_map(|layer| layer.groups);
+    let marks: Vec<Mark> = groups.flat_map(|group| group.marks).collect();
+    paint_over(&marks, &mut frame.rgba, frame.size);
+}
+
 /// Whether a frame can be drawn in bands: layers are made of all of it, and speed lines, a second look and words go
 /// over it as a whole.
 fn draws_bands(plan: &FramePlan) -> bool {
     let (style, tiles) = (&plan.style, plan.tiles());
-    let goes_over =
-        !style.trails().is_empty() || style.blend.shows() || !style.lettering.is_empty();
+    let has_trails = !style.trails().is_empty() || style.follow() > 0.0;
+    let goes_over = has_trails || style.blend.shows() || !style.lettering.is_empty();
     tiles.kept != tiles.frame && !goes_over && !plan.options.layers
 }

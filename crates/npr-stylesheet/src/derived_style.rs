@@ -14,10 +14,12 @@ impl Style {
         };
         style.line.method = OutlineMethod::Off;
         style.line.background = LineBackground::default();
+        style.motion.follow = 0.0;
         for rule in &mut style.rule {
             rule.line.method = None;
             rule.line.background = RuleBackground::default();
             rule.motion.trail = None;
+            rule.motion.follow = None;
         }
         style
     }

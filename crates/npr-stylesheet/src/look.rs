@@ -49,6 +49,8 @@ pub struct Look<'a> {
     pub beam: Option<Beam>,
     /// Vector in the scene from the part to where it came from, where a rule gives one.
     pub trail: Option<[f32; 3]>,
+    /// How many shutters back its speed lines follow what really moves.
+    pub follow: f32,
 }
 
 impl<'a> Look<'a> {
@@ -75,6 +77,7 @@ impl<'a> Look<'a> {
             highlight: style.highlight.clone(),
             beam: None,
             trail: None,
+            follow: style.motion.follow,
         }
     }
 
@@ -106,6 +109,7 @@ impl<'a> Look<'a> {
                 None => self.beam,
             },
             trail: rule.motion.trail.or(self.trail),
+            follow: rule.motion.follow.unwrap_or(self.follow),
         }
     }
 }

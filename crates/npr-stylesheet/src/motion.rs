@@ -1,17 +1,20 @@
 //! Speed lines: motion blur as comics draw it.
 //!
-//! A part that moves leaves strokes behind, from its trailing edge towards where it came from. Each is widest at the
-//! part and ends in a point; no two are of one length. The requirement is [Suzuki 2004, chapter 6]'s; how they are
-//! drawn is ours.
+//! A part that moves leaves strokes behind, from its trailing edge towards where it came from: along a vector of a rule,
+//! or along the way that a clip really moved it. Each is widest at the part and ends in a point; no two are of one
+//! length. The requirement is [Suzuki 2004, chapter 6]'s; how they are drawn is ours.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::{Color, Length};
+use crate::{Color, Length, Style};
 use npr_core::random::{hash, unit};
 
 /// Most different trails in a style: each is a walk over the whole picture.
 pub const TRAILS_MAX: usize = 16;
+
+/// Most moments of the way that speed lines follow: between them it is a smooth curve.
+const MOMENTS: usize = 8;
 
 /// How speed lines are drawn.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -31,6 +34,15 @@ pub struct Motion {
     /// Which of many drawings in the same hand, 0..4294967295; default 0.
     #[schemars(range(max = 4294967295u32))]
     pub seed: u32,
+    /// Seconds that a picture of a clip takes in, 0.001..1; default 0.0416667, a frame of a film. What follows motion
+    /// counts in it.
+    #[schemars(range(min = 0.001, max = 1.0))]
+    pub shutter: f32,
+    /// How many shutters back speed lines follow what a clip really moves, 0..64; default 0: none. 3 brisk, 8 a blur.
+    #[schemars(range(min = 0.0, max = 64.0))]
+    pub follow: f32,
+    /// Least way on screen that such lines follow; default 40 pixels at frame height 1080. What moves less has none.
+    pub least: Length,
 }
 
 impl Default for Motion {
@@ -41,6 +53,9 @@ impl Default for Motion {
             weight: 0.6,
             variation: 0.7,
             seed: 0,
+            shutter: 1.0 / 24.0,
+            follow: 0.0,
+            least: Length::ref_px(40.0),
         }
     }
 }
@@ -53,6 +68,26 @@ pub struct RuleMotion {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(inner(range(min = -1e9, max = 1e9)))]
     pub trail: Option<[f32; 3]>,
+    /// As `motion.follow`, for the part. 0 leaves none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 64.0))]
+    pub follow: Option<f32>,
+}
+
+impl Style {
+    /// The most shutters that speed lines of any part follow what moves; 0 where none do.
+    pub fn follow(&self) -> f32 {
+        let of_rules = self.rule.iter().filter_map(|rule| rule.motion.follow);
+        of_rules.fold(self.motion.follow, f32::max)
+    }
+
+    /// Seconds before a picture at which it has to be known where everything was, in rising order; none where nothing
+    /// follows motion.
+    pub fn moments_s(&self) -> Vec<f32> {
+        let reach_s = self.follow() * self.motion.shutter;
+        let moments = (1..=MOMENTS).map(|i| reach_s * i as f32 / MOMENTS as f32);
+        moments.filter(|seconds| *seconds > 0.0).collect()
+    }
 }
 
 impl Motion {
@@ -75,7 +110,7 @@ impl Motion {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Style, StyleError};
+    use crate::StyleError;
     use proptest::prelude::*;
 
     fn read(text: &str) -> Result<Style, StyleError> {
@@ -113,6 +148,17 @@ mod tests {
         let still = Some([0.0; 3]);
         let wanted = [still, Some([0.0, 2.0, 0.0]), Some([1.0, 0.0, 0.0]), None];
         assert_eq!(["A", "B", "C", "D"].map(of), wanted);
+    }
+
+    #[test]
+    fn moments_reach_as_far_as_the_part_that_follows_most() {
+        let text = "motion.shutter = 0.1\n[[rule]]\nmatch.object = 'A'\nmotion.follow = 4";
+        let style = read(text).unwrap();
+        let moments = style.moments_s();
+        assert_eq!((moments.len(), moments[0], moments[7]), (8, 0.05, 0.4));
+        let of = |object| style.resolve_for("", object).follow;
+        assert_eq!([of("A"), of("B")], [4.0, 0.0]);
+        assert!(Style::default().moments_s().is_empty());
     }
 
     #[test]

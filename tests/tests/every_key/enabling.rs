@@ -385,6 +385,11 @@ const ENABLING: &[(&str, &[&str], &str)] = &[
         "no part moves by default",
     ),
     (
+        "motion",
+        &["motion.follow=8", "motion.variation=0.3"],
+        "no line follows what moves by default",
+    ),
+    (
         "blend",
         &["blend.amount=0.5"],
         "all of the look is drawn by default",

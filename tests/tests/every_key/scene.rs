@@ -10,7 +10,7 @@ use npr_gpu::processor::Processor;
 use npr_mesh::testing::{icosphere, plane};
 use npr_render::{
     Font, Lettering, LineModel, LineModelOptions, LineOptions, LineRenderer, LineSource, Model,
-    Picture, Renderer, RendererOptions, Smoke, Sphere, apply_id_maps,
+    Movement, Picture, Renderer, RendererOptions, Smoke, Sphere, apply_id_maps,
 };
 use npr_scene::{
     Image, Light, LightKind, Material, Node, OutlineWidth, Scene, Skin, TextureTransform,
@@ -80,6 +80,9 @@ impl Studio {
             }
             None => Renderer::new(&Processor, model, style, &options).unwrap(),
         };
+        if !is_smoke_alone {
+            renderer.set_movement(movement(cut.as_ref().unwrap_or(&self.scene), style));
+        }
         match renderer.draw(&camera()) {
             Ok(frame) => (frame.rgba, frame.notices),
             Err(error) => (error.to_string().into_bytes(), Vec::new()),
@@ -111,6 +114,7 @@ impl Studio {
         if let Some(behind) = &behind {
             renderer = renderer.with_backdrop(behind, &renderer_options);
         }
+        renderer.set_movement(movement(scene, style));
         let drawing = match renderer.draw(&camera(), style, &options) {
             Ok(drawing) => drawing,
             Err(error) => return (error.to_string().into_bytes(), Vec::new()),
@@ -169,6 +173,18 @@ impl Studio {
         apply_id_maps(&mut scene, style, &self.pictures).unwrap();
         scene
     }
+}
+
+/// Where everything of the scene was before: the box comes from the left and from above.
+fn movement(scene: &Scene, style: &Style) -> Option<Movement> {
+    let mut scene = scene.clone();
+    let rest = scene.nodes[1].world_from_node;
+    Movement::of_style(&mut scene, style, |scene, seconds| {
+        let place = &mut scene.nodes[1].world_from_node[3];
+        place[0] = rest[3][0] - 4.0 * seconds;
+        place[1] = rest[3][1] + 3.0 * seconds;
+    })
+    .unwrap()
 }
 
 fn camera() -> Camera {

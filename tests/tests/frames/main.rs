@@ -8,6 +8,7 @@ mod blends;
 mod comic;
 mod comic_look;
 mod determinism;
+mod followed_motion;
 mod smoke;
 mod snapshots;
 mod speed_lines;

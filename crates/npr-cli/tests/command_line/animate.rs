@@ -511,6 +511,8 @@ fn a_frame_of_a_clip_is_the_picture_at_its_time() {
         ("lines", "svg", "cpu", "--hidden dashed"),
         ("lines", "svg", "gpu", "--kinds contour,boundary"),
         ("lines", "json", "cpu", "--style ink"),
+        ("render", "png", "cpu", "--set motion.follow=9"),
+        ("lines", "svg", "cpu", "--set motion.follow=9"),
     ];
     for clip in ["Beat", "Stretch"] {
         for (command, ending, backend, more) in cases {

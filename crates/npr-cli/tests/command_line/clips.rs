@@ -57,6 +57,43 @@ fn a_clip_is_named_or_numbered_and_its_time_is_clamped() {
 }
 
 #[test]
+fn speed_lines_follow_what_a_clip_moves() {
+    let place = place();
+    for command in ["render", "lines"] {
+        let picture = |time: &str, more: &[&str]| {
+            let (picture, outcome) = drawn(&place, command, &[&["--time", time], more].concat());
+            outcome.assert_silent_success();
+            picture
+        };
+        let follow = ["--set", "motion.follow=8"];
+        let slow = ["--set", "motion.follow=8", "--set", "motion.shutter=0.1"];
+        let plain = picture("1.5", &[]);
+        assert_ne!(picture("1.5", &follow), plain);
+        assert_ne!(picture("1.5", &follow), picture("1.5", &slow));
+        // Before its first key a clip stands still, and long after its last one.
+        for time in ["-7", "0", "99"] {
+            assert_eq!(picture(time, &follow), picture(time, &[]), "{time}");
+        }
+        let told = drawn(
+            &place,
+            command,
+            &["--set", "motion.least=4px", "--time", "1"],
+        );
+        assert!(
+            told.1.stderr.contains("motion.follow is 0"),
+            "{}",
+            told.1.stderr
+        );
+    }
+    let line = "lines wing.glb --time 1.5 --set motion.follow=8 --backend cpu -o w.json";
+    place
+        .npr(&line.split(' ').collect::<Vec<_>>())
+        .assert_silent_success();
+    let json = String::from_utf8(place.get("w.json")).expect("text");
+    assert!(json.contains("\"speed lines\"") && json.contains("\"wing\""));
+}
+
+#[test]
 fn clips_and_times_that_there_are_none_of_are_refused() {
     let place = place();
     let refused = |arguments: &[&str], text: &str| place.npr(arguments).assert_fault(2, text);

@@ -255,6 +255,10 @@ fn check_recorded(style: &Style) -> Result<(), RenderError> {
             "motion.trail, which goes over the finished picture,",
         ),
         (
+            style.follow() > 0.0,
+            "motion.follow, which goes over the finished picture,",
+        ),
+        (
             style.blend.shows(),
             "blend, which mixes two finished pictures,",
         ),

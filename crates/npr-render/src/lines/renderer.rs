@@ -7,7 +7,9 @@ use super::options::LineOptions;
 use crate::error::RenderError;
 use crate::frame::Frame;
 use crate::model::Model;
+use crate::movement::Movement;
 use crate::options::Picture;
+use crate::trails;
 use npr_core::camera::Camera;
 use npr_gpu::engine::{Engine, PassTime};
 use npr_scene::Scene;
@@ -49,6 +51,8 @@ pub struct LineRenderer<'a> {
     finder: Box<dyn Finder + 'a>,
     /// The frame before, where strokes hold to it.
     held: Option<HeldLines>,
+    /// Where everything was before, where lines follow motion.
+    movement: Option<Movement>,
 }
 
 impl<'a> LineRenderer<'a> {
@@ -65,6 +69,7 @@ impl<'a> LineRenderer<'a> {
                 false => Box::new(OnDevice::new(engine, shape)),
             },
             held: None,
+            movement: None,
         }
     }
 
@@ -82,6 +87,13 @@ impl<'a> LineRenderer<'a> {
     /// The next frame is the first.
     pub fn hold_strokes(&mut self) {
         self.held = Some(HeldLines::default());
+    }
+
+    /// Where everything was before the pose that is drawn: drawings have the speed lines of `motion.follow` along that
+    /// way from now on, as strokes of kind [`Kind::Marked`](npr_vector::stroke::Kind) on an object "speed lines".
+    /// [`Renderer::set_movement`](crate::Renderer::set_movement) draws the same ones.
+    pub fn set_movement(&mut self, movement: Option<Movement>) {
+        self.movement = movement;
     }
 
     /// Finds the lines that a camera sees, for those of the next frame to hold to, and gives none.
@@ -143,7 +155,13 @@ impl<'a> LineRenderer<'a> {
         let model = self.posed.as_deref().unwrap_or(self.given);
         let find = self.finder.as_mut();
         let seen = (camera, behind.as_ref());
-        model.draw_with(seen, style, options, find, self.held.as_mut())
+        let mut drawing = model.draw_with(seen, style, options, find, self.held.as_mut())?;
+        if let Some(movement) = &self.movement {
+            let of_page = (options.size, options.dpi);
+            let lines = trails::find_trails(movement, (camera, style), of_page);
+            trails::lay_over(&mut drawing, lines);
+        }
+        Ok(drawing)
     }
 
     /// The lines of the parts whose style asks for curves that are found as `options` says; smoke hides none of them.

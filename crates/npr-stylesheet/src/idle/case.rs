@@ -63,6 +63,8 @@ pub struct Facts {
     pub faces: bool,
     /// Materials that say how they are drawn as toons.
     pub toons: bool,
+    /// Clips, which move it.
+    pub clips: bool,
 }
 
 impl Facts {
@@ -75,6 +77,7 @@ impl Facts {
         lights: true,
         faces: true,
         toons: true,
+        clips: true,
     };
 }
 
@@ -100,6 +103,11 @@ impl<'a> Case<'a> {
             is_of_rule: inner.is_some(),
             on: *occasion,
         }
+    }
+
+    /// Whether speed lines follow what a clip moves.
+    pub fn follows_motion(&self) -> bool {
+        self.on.scene.clips && self.style.follow() > 0.0
     }
 
     /// Whether `is_so` holds for any of the looks.

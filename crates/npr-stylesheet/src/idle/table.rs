@@ -125,10 +125,11 @@ pub(super) const ENTRIES: &[Entry] = &[
         "drawings of lines have no grain, but for --svg stamps",
     ),
     entry(
-        &["motion", "blend"],
+        &["motion.trail"],
         |c| !c.is_frame(),
-        "speed lines and blends are of pictures",
+        "speed lines along a vector are of pictures; those of motion.follow are of lines, too",
     ),
+    entry(&["blend"], |c| !c.is_frame(), "blends are of pictures"),
     entry(
         &["shade.mode", "shade.paper", "shade.color"],
         |c| {
@@ -778,9 +779,25 @@ pub(super) const ENTRIES: &[Entry] = &[
         "no light throws shadows",
     ),
     entry(
-        &["motion"],
-        |c| !c.is_of_rule && c.style.trails().is_empty(),
-        "no rule gives a part a motion.trail",
+        &["motion.follow"],
+        |c| !c.on.scene.clips,
+        "the scene has no clips",
+    ),
+    entry(
+        &["motion.shutter", "motion.least"],
+        |c| !c.follows_motion(),
+        "motion.follow is 0, or the scene has no clips",
+    ),
+    entry(
+        &[
+            "motion.color",
+            "motion.spacing",
+            "motion.weight",
+            "motion.variation",
+            "motion.seed",
+        ],
+        |c| !c.follows_motion() && (!c.is_frame() || c.style.trails().is_empty()),
+        "nothing has speed lines: motion.follow is 0, or the scene has no clips, and no rule gives a motion.trail",
     ),
     entry(
         &["blend.with"],

@@ -1,0 +1,259 @@
+//! Speed lines along the way that things really moved, in frames and in drawings of lines.
+
+use npr_drawing::artwork::ArtworkOptions;
+use npr_drawing::drawing::rasterise;
+use npr_gpu::engine::Engine;
+use npr_gpu::processor::Processor;
+use npr_mesh::testing::icosphere;
+use npr_render::{
+    Drawing, Frame, Kind, LineModel, LineModelOptions, LineOptions, LineRenderer, Model, Movement,
+    Renderer, RendererOptions,
+};
+use npr_scene::Scene;
+use npr_stylesheet::Style;
+use npr_tests::comic::{SIZE, front, pixel, style, wall};
+use npr_tests::{Object, boxed, device, placed, scene_of};
+use npr_vector::stroke::Stroke;
+
+/// A wall, a ball that moves before it, and a rock that stands still.
+fn scene() -> Scene {
+    scene_of(&[
+        Object::new("Wall", wall(2.0, -1.0)),
+        Object::new("Ball", placed(&icosphere(4), [0.4; 3], [0.0; 3])),
+        Object::new("Rock", placed(&icosphere(4), [0.2; 3], [-0.6, -0.7, 0.0])),
+    ])
+}
+
+/// Style keys of every test: a full second is followed.
+fn following(settings: &[&str]) -> Style {
+    let common = [
+        "motion.shutter=0.25",
+        "motion.follow=4",
+        "motion.spacing=8px",
+        "motion.least=6px",
+    ];
+    style(&[&common, settings].concat())
+}
+
+/// The scene with its ball where `way` has it so many seconds before, and where all of it was.
+fn moved(style: &Style, way: impl Fn(f32) -> [f32; 3]) -> (Scene, Option<Movement>) {
+    let mut scene = scene();
+    let stand = |scene: &mut Scene, seconds: f32| {
+        let [x, y, z] = way(seconds);
+        scene.nodes[1].world_from_node[3] = [x, y, z, 1.0];
+    };
+    let movement = Movement::of_style(&mut scene, style, stand).unwrap();
+    (scene, movement)
+}
+
+fn frame_on(engine: &dyn Engine, style: &Style, way: impl Fn(f32) -> [f32; 3]) -> Frame {
+    let (scene, movement) = moved(style, way);
+    let model = Model::new(&scene).unwrap();
+    let options = RendererOptions::new(SIZE);
+    let mut renderer = Renderer::new(engine, &model, style, &options).unwrap();
+    renderer.set_movement(movement);
+    renderer.draw(&front()).unwrap()
+}
+
+fn drawing(style: &Style, way: impl Fn(f32) -> [f32; 3]) -> Drawing {
+    let (scene, movement) = moved(style, way);
+    let lines = LineModel::for_style(&scene, style, &LineModelOptions::default(), None).unwrap();
+    let mut renderer = LineRenderer::new(&Processor, &lines);
+    renderer.set_movement(movement);
+    let options = LineOptions::of_style(style, SIZE);
+    renderer.draw(&front(), style, &options).unwrap()
+}
+
+/// The speed lines of a drawing.
+fn trails(drawing: &Drawing) -> Vec<&Stroke> {
+    let surface = |stroke: &Stroke| &drawing.surfaces[stroke.surface as usize];
+    let strokes = drawing.strokes.iter();
+    strokes
+        .filter(|stroke| surface(stroke).object == "speed lines")
+        .collect()
+}
+
+/// From the left to where it stands, to the right of the middle.
+fn from_the_left(seconds: f32) -> [f32; 3] {
+    [0.5 - 1.2 * seconds, 0.3, 0.0]
+}
+
+fn still(_: f32) -> [f32; 3] {
+    from_the_left(0.0)
+}
+
+/// Places where two pictures differ.
+fn changed(a: &Frame, b: &Frame) -> Vec<[u32; 2]> {
+    let all = (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| [x, y]));
+    all.filter(|[x, y]| pixel(a, *x, *y) != pixel(b, *x, *y))
+        .collect()
+}
+
+#[test]
+fn lines_follow_what_moved_and_nothing_else() {
+    let style = following(&[]);
+    let lines = drawing(&style, from_the_left);
+    let found = trails(&lines);
+    assert!(found.len() >= 6, "{}", found.len());
+    // The ball's middle shows at (208, 91), and its radius is 38 pixels: it came along 115 of them.
+    for stroke in &found {
+        assert_eq!(stroke.kind, Kind::Marked);
+        let [first, last] = [stroke.points[0], stroke.points[stroke.points.len() - 1]];
+        assert!(first.position[0] < 215.0, "{first:?}");
+        assert!(last.position[0] < first.position[0] - 5.0);
+        assert!((first.position[1] - last.position[1]).abs() < 0.5, "level");
+        assert!(last.position[0] > 50.0, "{last:?}");
+        assert!((53.0..130.0).contains(&first.position[1]));
+        assert_eq!(last.width, 0.0);
+    }
+    let material = &lines.surfaces[found[0].surface as usize].material;
+    assert_eq!(material, "Ball");
+    assert!(trails(&drawing(&style, still)).is_empty());
+    let unlike = Style::default();
+    assert!(trails(&drawing(&unlike, from_the_left)).is_empty());
+
+    // Lines differ in length and width, and no two lie at one place.
+    let lengths: Vec<f64> = found.iter().map(|stroke| stroke.length()).collect();
+    let [least, most] = [f64::min, f64::max].map(|of| lengths.iter().copied().reduce(of).unwrap());
+    assert!(most > 1.5 * least, "{lengths:?}");
+}
+
+#[test]
+fn frames_and_files_have_the_same_lines() {
+    let style = following(&["motion.color=#ff0000", "line.method='none'"]);
+    let frame = frame_on(&Processor, &style, from_the_left);
+    let plain = frame_on(&Processor, &style, still);
+    let lines = drawing(&style, from_the_left);
+    let mut alone = lines.clone();
+    let is_trail: Vec<u64> = trails(&lines).iter().map(|stroke| stroke.id).collect();
+    alone.strokes.retain(|stroke| is_trail.contains(&stroke.id));
+    let file = rasterise(&alone, &ArtworkOptions::default());
+
+    // What is inked in one is inked in the other, and nothing else of the frame changes.
+    let mut count = 0;
+    for (i, ink) in file.chunks_exact(4).enumerate() {
+        let [x, y] = [i as u32 % SIZE[0], i as u32 / SIZE[0]];
+        let [before, after] = [pixel(&plain, x, y), pixel(&frame, x, y)];
+        if ink[3] == 0 {
+            assert_eq!(before, after, "{x} {y}");
+        }
+        if ink[3] > 200 {
+            count += 1;
+            assert!(after[0] > 200 && after[1] < 60, "{x} {y}: {after:?}");
+        }
+    }
+    assert!(count > 50, "{count}");
+}
+
+#[test]
+fn nothing_is_drawn_over_what_moves_or_stands_before_it() {
+    let style = following(&[]);
+    let [frame, plain] = [
+        frame_on(&Processor, &style, from_the_left),
+        frame_on(&Processor, &style, still),
+    ];
+    let on_ball = |place: &[u32; 2]| {
+        let [x, y] = [0, 1].map(|i| place[i] as f32 + 0.5 - [208.0, 91.2][i]);
+        x * x + y * y < 36.0 * 36.0
+    };
+    assert_eq!(
+        changed(&frame, &plain)
+            .iter()
+            .filter(|place| on_ball(place))
+            .count(),
+        0
+    );
+
+    // A slab before the way, which stands still, cuts the lines.
+    let slab = Object::new("Slab", boxed([-0.3, -0.4, 0.9], [-0.1, 1.0, 1.0]));
+    let mut scene = scene_of(&[
+        Object::new("Ball", placed(&icosphere(4), [0.4; 3], [0.0; 3])),
+        slab,
+    ]);
+    let movement = Movement::of_style(&mut scene, &style, |scene, seconds| {
+        let [x, y, z] = from_the_left(seconds);
+        scene.nodes[0].world_from_node[3] = [x, y, z, 1.0];
+    });
+    let lines = LineModel::for_style(&scene, &style, &LineModelOptions::default(), None).unwrap();
+    let mut renderer = LineRenderer::new(&Processor, &lines);
+    renderer.set_movement(movement.unwrap());
+    let options = LineOptions::of_style(&style, SIZE);
+    let lines = renderer.draw(&front(), &style, &options).unwrap();
+    let found = trails(&lines);
+    let points = found.iter().flat_map(|stroke| &stroke.points);
+    let on_slab = |x: f64| (132.5..149.5).contains(&x);
+    assert_eq!(points.filter(|point| on_slab(point.position[0])).count(), 0);
+    let ends_behind =
+        |stroke: &&&Stroke| stroke.points[stroke.points.len() - 1].position[0] < 132.0;
+    assert!(
+        found.iter().filter(ends_behind).count() > 2,
+        "they go on behind it"
+    );
+}
+
+#[test]
+fn lines_bend_with_the_way() {
+    // Around the middle of the picture: every point of the ball's rim keeps the ball's way, shifted.
+    let around = |seconds: f32| {
+        let angle = 1.5 * seconds;
+        [
+            0.8 * npr_core::math::cos(angle),
+            0.8 * npr_core::math::sin(angle) - 0.2,
+            0.0,
+        ]
+    };
+    let lines = drawing(&following(&["motion.variation=0"]), around);
+    let found = trails(&lines);
+    assert!(found.len() >= 4);
+    for stroke in found {
+        // Their ends and middles lie on a circle of 0.8 x 96 pixels.
+        let at = |share: f64| {
+            let last = stroke.points.len() - 1;
+            stroke.points[(share * last as f64) as usize].position
+        };
+        let [a, b, c] = [at(0.0), at(0.5), at(1.0)];
+        let side = |p: [f64; 2], q: [f64; 2]| (p[0] - q[0]).hypot(p[1] - q[1]);
+        let area = 0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).abs();
+        let radius = side(a, b) * side(b, c) * side(c, a) / (4.0 * area);
+        assert!((60.0..95.0).contains(&radius), "{radius}");
+    }
+}
+
+#[test]
+fn cuts_and_numbers_that_are_none_leave_nothing_or_short_lines() {
+    let style = following(&[]);
+    let ways: [fn(f32) -> [f32; 3]; 5] = [
+        |seconds| [if seconds > 0.0 { 1e30 } else { 0.5 }, 0.3, 0.0],
+        |seconds| [0.5, if seconds > 0.4 { f32::NAN } else { 0.3 }, 0.0],
+        |seconds| [if seconds > 0.1 { -40.0 } else { 0.5 }, 0.3, 0.0],
+        |seconds| [0.5, 0.3, 1e9 * seconds],
+        |seconds| [0.5 - 9.0 * seconds, 0.3, f32::INFINITY * seconds.max(0.0)],
+    ];
+    for (i, way) in ways.into_iter().enumerate() {
+        let lines = drawing(&style, way);
+        for stroke in trails(&lines) {
+            assert!(stroke.length() < f64::from(SIZE[1]), "{i}");
+            assert!(
+                stroke
+                    .points
+                    .iter()
+                    .all(|point| point.position.iter().all(|v| v.is_finite()))
+            );
+        }
+        let _ = frame_on(&Processor, &style, way);
+    }
+}
+
+#[test]
+fn both_engines_have_the_same_lines() {
+    let Some(device) = device() else { return };
+    let style = following(&["line.method='none'"]);
+    let of = |engine: &dyn Engine| {
+        let frames = [
+            frame_on(engine, &style, from_the_left),
+            frame_on(engine, &style, still),
+        ];
+        changed(&frames[0], &frames[1])
+    };
+    assert_eq!(of(&Processor), of(device));
+}
