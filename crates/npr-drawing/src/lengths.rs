@@ -53,7 +53,7 @@ fn parts_of(stroke: &Stroke, line: &Measured, longest_px: f64) -> Vec<Stroke> {
 }
 
 /// The id of a part by its number.
-fn id_of(stroke: u64, number: u32) -> u64 {
+pub(crate) fn id_of(stroke: u64, number: u32) -> u64 {
     match number {
         0 => stroke,
         _ => stroke ^ (u64::from(mix_bits(number)) << 32 | u64::from(number)),

@@ -57,11 +57,13 @@ impl Taper {
 ///
 /// Lengths are along the stroke in the picture, so a taper looks the same from every side. Points are added where the
 /// width changes; those that were there stay. Rings have no ends, but may be specks. The stroke's own far side counts
-/// as another line. O(points), on all threads, with the same result for any number of them.
+/// as another line. Ends of which `is_lifted` says so thin out whatever they meet. O(points), on all threads, with the
+/// same result for any number of them.
 pub fn taper_strokes<'a>(
     strokes: &mut Vec<Stroke>,
     size: [u32; 2],
     taper_of: impl Fn(&Stroke) -> Option<&'a Taper> + Sync,
+    is_lifted: impl Fn(&Stroke) -> [bool; 2] + Sync,
 ) {
     // Choose those that thin out.
     let of = |stroke: &Stroke| {
@@ -100,7 +102,9 @@ pub fn taper_strokes<'a>(
         }
         if !stroke.closed {
             let most = taper.share.min(0.5) * length;
-            let reach = [0, 1].map(|end| match is_met[end] && !taper.at_all_ends {
+            let is_lifted = is_lifted(stroke);
+            let goes_on = |end: usize| is_met[end] && !taper.at_all_ends && !is_lifted[end];
+            let reach = [0, 1].map(|end| match goes_on(end) {
                 true => 0.0,
                 false => taper.lengths_px[end].min(most),
             });

@@ -221,6 +221,15 @@ const ENABLING: &[(&str, &[&str], &str)] = &[
         "a pen does not mind the paper",
     ),
     (
+        "line.guides",
+        &[
+            "line.guides=[[0, 0, 0]]",
+            "line.width.taper.start='12px'",
+            "line.width.taper.end='12px'",
+        ],
+        "one has to be there, and tapers show it",
+    ),
+    (
         "line.width.taper",
         &[
             "line.width.taper.start='12px'",

@@ -5,7 +5,9 @@ use npr_drawing::drawing::rasterise;
 use npr_drawing::svg::{SvgOptions, write_svg};
 use npr_gpu::processor::Processor;
 use npr_mesh::testing::icosphere;
-use npr_render::{Frame, LineOptions, RenderError, RendererOptions, Subject};
+use npr_render::{
+    Frame, LineModel, LineModelOptions, LineOptions, RenderError, RendererOptions, Subject,
+};
 use npr_stylesheet::Style;
 use npr_tests::comic::front;
 use npr_tests::{Ink, Object, boxed, lines, placed, scene_of};
@@ -137,6 +139,51 @@ fn lines_leave_the_shape() {
     let lost = plain.without(&short).count();
     assert!((8 * 15 * 4..8 * 40 * 4).contains(&lost), "{lost}");
     assert_eq!(short.components().len(), 4, "four sides without corners");
+}
+
+/// The ring around a ball opens where a guide lies and thins out towards it, in frames and files, and goes on being cut
+/// there where the surface is carried elsewhere.
+#[test]
+fn guides_lift_the_pen_where_they_lie_on_the_surface() {
+    let tapers = ["line.width.taper.start=60px", "line.width.taper.end=60px"];
+    let (_, whole) = drawn(&tapers);
+    let top = "line.guides=[[0, 0.8, 0]]";
+    let ([frame, file], cut) = drawn(&[tapers[0], tapers[1], top]);
+    let [ring, open] = [&whole.strokes[0], &cut.strokes[0]];
+    assert!(ring.closed && !open.closed && cut.strokes.len() == 1);
+    assert!((ring.length() - open.length()).abs() < 1.0);
+    let highest = ring
+        .points
+        .iter()
+        .map(|point| point.position[1])
+        .fold(f64::MAX, f64::min);
+    for point in [open.points[0], open.points[open.points.len() - 1]] {
+        let [x, y] = point.position;
+        assert!((x - 320.0).abs() < 15.0 && y - highest < 2.0, "{x}, {y}");
+        assert_eq!(point.width, 0.0);
+    }
+    let inks = [&frame, &file].map(Ink::of_strokes);
+    assert!(difference(&inks[0], &inks[1]) < 0.001);
+    assert!(inks[0].thickness([320.0, highest as f32 + 1.0]) < 2.0);
+
+    // Turn the ball so that its top lies to the right.
+    let mut scene = scene_of(&[Object::new(
+        "Ball",
+        placed(&icosphere(5), [0.8; 3], [0.0; 3]),
+    )]);
+    let style = style(&[tapers[0], tapers[1], top]);
+    let mut lines = LineModel::new(&scene, &LineModelOptions::default()).unwrap();
+    let turned = |[x, y, z]: [f32; 3]| [y, -x, z];
+    for part in scene.meshes.iter_mut().flat_map(|mesh| &mut mesh.parts) {
+        part.positions
+            .iter_mut()
+            .for_each(|place| *place = turned(*place));
+    }
+    lines.set_pose(&scene).unwrap();
+    let of_style = LineOptions::of_style(&style, SIZE);
+    let drawing = lines.draw(&front(), &style, &of_style).unwrap();
+    let [x, y] = drawing.strokes[0].points[0].position;
+    assert!((y - 240.0).abs() < 15.0 && x > 320.0, "{x}, {y}");
 }
 
 #[test]

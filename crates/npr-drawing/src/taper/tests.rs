@@ -33,7 +33,7 @@ fn stroke(places: &[[f64; 2]], width: f64) -> Stroke {
 }
 
 fn tapered(mut strokes: Vec<Stroke>, taper: &Taper) -> Vec<Stroke> {
-    taper_strokes(&mut strokes, SIZE, |_| Some(taper));
+    taper_strokes(&mut strokes, SIZE, |_| Some(taper), |_| [false; 2]);
     strokes
 }
 
@@ -138,7 +138,7 @@ fn rings_and_lines_of_others_stay() {
     let line = stroke(&[[20.0, 20.0], [60.0, 20.0]], 4.0);
     let before = vec![ring, line];
     let mut after = before.clone();
-    taper_strokes(&mut after, SIZE, |_| None);
+    taper_strokes(&mut after, SIZE, |_| None, |_| [false; 2]);
     assert_eq!(after, before);
     assert_eq!(tapered(before.clone(), &PLAIN)[0], before[0]);
 }

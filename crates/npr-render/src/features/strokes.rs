@@ -80,6 +80,7 @@ pub(crate) fn sample_room(
         ),
         (manners.all.len() > PartWidths::MOST, "many manners"),
         (style.has_tufts(), "tufts"),
+        (!style.line.guides.is_empty(), "guides"),
         (options.layers, "layers"),
         (is_tiled, "tiles"),
     ];

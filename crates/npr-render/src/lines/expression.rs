@@ -6,6 +6,7 @@ use super::options::LineOptions;
 use crate::error::RenderError;
 use crate::manners::{StrokeManner, StrokeManners};
 use npr_drawing::dash::{Dash, cut_to_dashes, points_of_dashes};
+use npr_drawing::guides::{Guide, cut_at_guides};
 use npr_drawing::hand::{Hand, draw_by_hand, points_by_hand};
 use npr_drawing::lengths::cut_long_strokes;
 use npr_drawing::overshoot::{Overshoot, move_ends};
@@ -17,6 +18,9 @@ use npr_stylesheet::{Length, Style, TaperEnds, WidthStop};
 use npr_vector::mesh_lines::run::SPECK_PX;
 use npr_vector::sampled::PartWidth;
 use npr_vector::stroke::{Kind, Stroke};
+
+/// How far from a guide a line may pass that it lifts the pen of, as a share of the picture's height.
+const GUIDE_REACH: f64 = 0.03;
 
 /// Samples on either side that decide with one whether it is seen.
 const SAMPLE_RADIUS: u32 = 1;
@@ -108,6 +112,8 @@ pub(crate) struct Expression {
     least_px: [f64; 2],
     /// Length of the longest stroke, in pixels; 0 for any.
     longest_px: f64,
+    /// Where pens are lifted, and how far from there a line may pass, in pixels.
+    guides: (Vec<Guide>, f64),
     /// Share of the way to a line beside it that ink may take; 0 for all.
     room: f64,
     /// How the strokes of parts are drawn, by the numbers of [`StrokeManners`].
@@ -135,9 +141,16 @@ impl Expression {
                 false => [0.0; 2],
             },
             longest_px: pixels.drawn(style.line.longest),
+            guides: (Vec::new(), GUIDE_REACH * f64::from(px[0])),
             room: f64::from(style.line.width.room),
             manners: manners.map(|manner| pixels.manner(manner, depth)).collect(),
         }
+    }
+
+    /// The same with pens lifted at some places.
+    pub fn guided(mut self, guides: Vec<Guide>) -> Self {
+        self.guides.0 = guides;
+        self
     }
 
     /// The same for a film whose strokes hold: dashes and sways lie by the texture, which holds.
@@ -175,6 +188,7 @@ impl Expression {
             // Whether an end is in the open hangs on what is seen of the lines around it.
             least_px: [0.0; 2],
             longest_px: self.longest_px,
+            guides: self.guides,
             room: 0.0,
             manners: self.manners.into_iter().map(open).collect(),
         }
@@ -238,6 +252,9 @@ impl Expression {
             None => remove_stubs(strokes, size, least_px),
         }
         cut_long_strokes(strokes, self.longest_px, is_drawn);
+        let (guides, reach_px) = &self.guides;
+        let lifted = cut_at_guides(strokes, guides, *reach_px, is_drawn);
+        let is_lifted = |stroke: &Stroke| lifted.get(&stroke.id).copied().unwrap_or_default();
 
         // Move the ends, and thin them.
         let moves_ends = self
@@ -250,17 +267,15 @@ impl Expression {
             specks
                 .iter_mut()
                 .for_each(|taper| taper.lengths_px = [0.0; 2]);
-            taper_strokes(strokes, size, |stroke| {
-                specks.get(manner_of(stroke)? as usize)
-            });
+            let specks = |stroke: &Stroke| specks.get(manner_of(stroke)? as usize);
+            taper_strokes(strokes, size, specks, is_lifted);
             tapers.iter_mut().for_each(|taper| taper.short_px = 0.0);
             move_ends(strokes, size, |stroke| Some(&of(stroke)?.overshoot));
         }
         press_strokes(strokes, |stroke| Some(&of(stroke)?.pressure));
         leave_room(strokes, self.room, is_drawn);
-        taper_strokes(strokes, size, |stroke| {
-            tapers.get(manner_of(stroke)? as usize)
-        });
+        let tapers = |stroke: &Stroke| tapers.get(manner_of(stroke)? as usize);
+        taper_strokes(strokes, size, tapers, is_lifted);
 
         // Let them sway, and cut them.
         let hand_of = |stroke: &Stroke| Some(&of(stroke)?.hand);

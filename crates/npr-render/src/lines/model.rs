@@ -34,6 +34,7 @@ use npr_core::crease::CreaseFrom;
 use npr_core::line_source::LineSource;
 use npr_core::texture::TextureStore;
 use npr_drawing::artwork::StrokeBrushes;
+use npr_drawing::guides::Guide;
 use npr_drawing::pressure::Pressure;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_scene::Scene;
@@ -49,6 +50,7 @@ use npr_vector::mesh_lines::puff::SilhouettePoint;
 use npr_vector::mesh_lines::run::RunPoint;
 use npr_vector::project::Projector;
 use npr_vector::stroke::{Drawing, Kind, Stroke};
+use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -76,6 +78,8 @@ pub struct LineModel {
     pub(super) bounds: Bounds,
     /// The radius of the sphere around the bounds of the first pose, once there is another.
     pub(super) first_radius: Option<f32>,
+    /// Where the vertices of the shape were in the first pose, once there is another.
+    pub(super) first_positions: Option<Vec<[f32; 3]>>,
     /// What other poses need of the meshes.
     pub(super) posables: Posables,
     pub(super) cameras: Vec<(String, Camera)>,
@@ -196,6 +200,7 @@ impl LineModel {
             colors: colors_of(&shape, assembly),
             bounds,
             first_radius: None,
+            first_positions: None,
             posables,
             lights: file_light::of_scene(scene, bounds),
             smoke: None,
@@ -467,6 +472,7 @@ impl LineModel {
             true => expression.before_sight(),
             false => expression,
         };
+        let expression = expression.guided(self.guides(style, &projector));
         let expression = match held.is_some() {
             true => expression.held(),
             false => expression,
@@ -486,6 +492,26 @@ impl LineModel {
             regions,
             notices: notices_of_view(prepared.so_far(), left_out),
         })
+    }
+
+    /// The guides of a style in a view: each lies on the vertex that was nearest to it in the first pose. Those behind
+    /// the eye are left out. O(guides x vertices).
+    fn guides(&self, style: &Style, projector: &Projector) -> Vec<Guide> {
+        let first = self
+            .first_positions
+            .as_ref()
+            .unwrap_or(&self.shape.positions);
+        let on_screen = |guide: &[f32; 3]| {
+            let guide = Vec3::from(*guide);
+            let away = |vertex: &u32| guide.distance_squared(Vec3::from(first[*vertex as usize]));
+            let all = (0..first.len() as u32).into_par_iter();
+            let nearest = all.min_by(|a, b| away(a).total_cmp(&away(b)).then(a.cmp(b)))?;
+            let world = self.shape.point(nearest);
+            let depth = projector.depth(world);
+            let place = projector.project(world);
+            (depth > projector.near()).then_some(Guide { place, depth })
+        };
+        style.line.guides.iter().filter_map(on_screen).collect()
     }
 
     /// What lengths are resolved with: the height of the picture and pixels per inch, and about how many pixels a unit

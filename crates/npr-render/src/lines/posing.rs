@@ -45,6 +45,8 @@ impl LineModel {
         // Keep the radius of the first pose, then move.
         self.first_radius
             .get_or_insert(placement::radius_of(self.bounds));
+        self.first_positions
+            .get_or_insert_with(|| self.shape.positions.clone());
         set_pose(&mut self.shape, &self.posables.meshes, &poses);
         let used = poses
             .iter()
@@ -78,6 +80,7 @@ impl LineModel {
             points: self.points.clone(),
             bounds: self.bounds,
             first_radius: self.first_radius,
+            first_positions: self.first_positions.clone(),
             posables: self.posables.clone(),
             cameras: self.cameras.clone(),
             lights: self.lights.clone(),

@@ -205,6 +205,11 @@ impl<'a> Case<'a> {
         width.short.value > 0.0 || self.any(shows)
     }
 
+    /// Whether a stroke that is cut in two with its pen lifted between looks otherwise than one that is not.
+    pub fn shows_lifts(&self) -> bool {
+        self.shows_cuts() || self.any(|look| look.line_width.taper.is_on())
+    }
+
     /// Whether any part may be hatched.
     pub fn hatches(&self) -> bool {
         self.any(|look| matches!(look.ink.tone, Tone::Hatch | Tone::InkHatch | Tone::Auto))
