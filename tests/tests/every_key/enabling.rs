@@ -86,6 +86,11 @@ pub const PLACES: &[(&str, &str, &str)] = &[
         "its strokes break off before they meet",
     ),
     (
+        "line.guides.0",
+        "otrace",
+        "in so small a picture no pixel of its lines is near enough to a vertex",
+    ),
+    (
         "detect.rescale_thresholds",
         "by shape",
         "edges lie inside the mask with either threshold",
