@@ -14,6 +14,7 @@ mod pixels;
 mod posing;
 mod prepared;
 mod renderer;
+mod smear;
 mod smoke;
 mod stroke_contrast;
 mod texture_map;
