@@ -30,6 +30,7 @@ use npr_render::{
 use npr_scene::{Limits, Scene};
 use npr_stylesheet::{Background, Style};
 use std::io::Write;
+use std::sync::Arc;
 
 /// Draws the lines that the user asked for, or prints the style.
 pub fn lines(args: &LinesArguments) -> Result<(), Fault> {
@@ -109,7 +110,7 @@ pub struct Prepared {
     /// What all of it was made of, in the same pose.
     pub scene: Scene,
     /// Where everything was before, where lines follow motion.
-    movement: Option<Movement>,
+    movement: Option<Arc<Movement>>,
 }
 
 impl Prepared {

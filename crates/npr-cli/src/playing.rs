@@ -8,6 +8,7 @@ use npr_core::camera::{Camera, bounds_of, box_corners};
 use npr_render::{Movement, RenderError, Smoke};
 use npr_scene::{Limits, Scene};
 use npr_stylesheet::Style;
+use std::sync::Arc;
 
 /// Fewest and most moments of a clip that a camera is placed by.
 const LOOKS: [usize; 2] = [8, 32];
@@ -68,7 +69,7 @@ impl Playing {
         scene: &mut Scene,
         frame: u32,
         style: &Style,
-    ) -> Result<Option<Movement>, RenderError> {
+    ) -> Result<Option<Arc<Movement>>, RenderError> {
         self.stance.movement(scene, self.time_s(frame), style)
     }
 

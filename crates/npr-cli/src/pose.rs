@@ -13,6 +13,7 @@ use npr_scene::{
 use npr_stylesheet::Style;
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::Arc;
 
 /// Most names that a message lists.
 const LISTED: usize = 5;
@@ -138,7 +139,7 @@ impl Stance {
         scene: &mut Scene,
         time_s: f32,
         style: &Style,
-    ) -> Result<Option<Movement>, RenderError> {
+    ) -> Result<Option<Arc<Movement>>, RenderError> {
         if self.clip.is_none() {
             return Ok(None);
         }
@@ -154,7 +155,7 @@ pub struct Posed {
     /// Whether the user asked for another pose than the one at rest.
     pub is_posed: bool,
     /// Where everything was before, where a clip plays and the style follows motion.
-    pub movement: Option<Movement>,
+    pub movement: Option<Arc<Movement>>,
     /// What there is to warn of.
     pub warnings: Vec<String>,
 }

@@ -31,6 +31,7 @@ use npr_stylesheet::{Facts, Occasion, SceneHint, Style};
 use std::borrow::Cow;
 use std::io::Write;
 use std::path::Path;
+use std::sync::Arc;
 
 /// Draws what the user asked for, or prints its style.
 pub fn render(args: &RenderArguments) -> Result<(), Fault> {
@@ -178,7 +179,7 @@ pub struct Prepared {
     /// Whether that is another pose than the one at rest.
     is_posed: bool,
     /// Where everything was before, where lines follow motion.
-    movement: Option<Movement>,
+    movement: Option<Arc<Movement>>,
     /// Seconds after which pictures on surfaces are drawn.
     seconds: f32,
 }

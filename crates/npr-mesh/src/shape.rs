@@ -189,6 +189,13 @@ pub struct PosableMesh {
     stored: Vec<[u32; 3]>,
 }
 
+impl PosableMesh {
+    /// The vertices of the shape that the mesh has, each with the stored vertex of the mesh whose place it has.
+    pub fn vertices(&self) -> impl Iterator<Item = (usize, u32)> + '_ {
+        (self.first_vertex..).zip(self.stands_for.iter().copied())
+    }
+}
+
 /// A mesh in another pose: where its stored vertices stand in the world, and the file's normals at them, empty where it
 /// has none.
 #[derive(Debug, Clone, Default, PartialEq)]

@@ -52,6 +52,7 @@ mod lines;
 mod look;
 mod manners;
 mod model;
+mod motion_lines;
 mod movement;
 mod options;
 mod part_info;
@@ -68,7 +69,6 @@ mod surfaces;
 mod textures;
 mod tiles;
 mod toon;
-mod trails;
 
 #[cfg(feature = "wgpu")]
 pub use device::{EmbeddedRenderer, HostView};

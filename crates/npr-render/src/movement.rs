@@ -8,6 +8,8 @@ use npr_core::camera::bounds_of;
 use npr_core::geometry::{Part, Triangle};
 use npr_scene::Scene;
 use npr_stylesheet::Style;
+use std::collections::BTreeSet;
+use std::sync::Arc;
 
 /// Least way of anything that moves, as a share of the scene's radius: what lies below is rounding.
 const STILL_SHARE: f32 = 2e-4;
@@ -95,7 +97,7 @@ impl Movement {
         scene: &mut Scene,
         style: &Style,
         mut stand: impl FnMut(&mut Scene, f32),
-    ) -> Result<Option<Self>, RenderError> {
+    ) -> Result<Option<Arc<Self>>, RenderError> {
         let moments = style.moments_s();
         if moments.is_empty() {
             return Ok(None);
@@ -107,12 +109,7 @@ impl Movement {
             movement.add(scene, seconds)?;
         }
         stand(scene, 0.0);
-        Ok(Some(movement))
-    }
-
-    /// Seconds before the picture of every moment, in rising order from 0.
-    pub(crate) fn seconds(&self) -> &[f32] {
-        &self.seconds
+        Ok(Some(Arc::new(movement)))
     }
 
     /// World positions of all vertices as they stand in the picture.
@@ -144,18 +141,37 @@ impl Movement {
         self.parts.iter().map(part).collect()
     }
 
-    /// Where a point of a triangle was at a moment, by the shares of its corners.
-    pub(crate) fn place(&self, moment: usize, triangle: u32, weights: [f32; 3]) -> Vec3 {
-        weighted(&self.places[moment], self.corners(triangle), weights)
+    /// The two moments around a time before the picture, and the share of the second; the last one beyond it.
+    fn moments_around(&self, seconds: f32) -> ([usize; 2], f32) {
+        let after = self.seconds.iter().position(|moment| *moment >= seconds);
+        let after = after.unwrap_or(self.seconds.len() - 1);
+        let before = after.saturating_sub(1);
+        let [near, far] = [before, after].map(|moment| self.seconds[moment]);
+        let share = (seconds - near) / (far - near).max(f32::MIN_POSITIVE);
+        ([before, after], share.clamp(0.0, 1.0))
+    }
+
+    /// Where a point of a triangle was some seconds before the picture, by the shares of its corners: on the straight
+    /// line between the moments around that.
+    pub(crate) fn place_before(&self, triangle: u32, weights: [f32; 3], seconds: f32) -> Vec3 {
+        let (moments, share) = self.moments_around(seconds);
+        let corners = self.triangles[triangle as usize].corners;
+        let [near, far] = moments.map(|moment| weighted(&self.places[moment], corners, weights));
+        near.lerp(far, share)
+    }
+
+    /// Where all vertices were some seconds before the picture, likewise.
+    pub(crate) fn places_before(&self, seconds: f32) -> Vec<[f32; 3]> {
+        let ([near, far], share) = self.moments_around(seconds);
+        let places = self.places[near].iter().zip(&self.places[far]);
+        let between = places.map(|(a, b)| Vec3::from(*a).lerp(Vec3::from(*b), share));
+        between.map(|place| place.to_array()).collect()
     }
 
     /// Where a point of a triangle lies in its mesh.
     pub(crate) fn anchor(&self, triangle: u32, weights: [f32; 3]) -> Vec3 {
-        weighted(&self.anchors, self.corners(triangle), weights)
-    }
-
-    fn corners(&self, triangle: u32) -> [u32; 3] {
-        self.triangles[triangle as usize].corners
+        let corners = self.triangles[triangle as usize].corners;
+        weighted(&self.anchors, corners, weights)
     }
 
     /// Whether anything of each part's object moves. O(vertices x moments).
@@ -166,7 +182,7 @@ impl Movement {
             let mut before = self.places[1..].iter();
             before.any(|places| now.distance(Vec3::from(places[v as usize])) > least)
         };
-        let mut moving = std::collections::BTreeSet::new();
+        let mut moving = BTreeSet::new();
         for triangle in &self.triangles {
             let object = self.parts[triangle.part as usize].object;
             if !moving.contains(&object) && triangle.corners.into_iter().any(far) {

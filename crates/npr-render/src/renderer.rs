@@ -14,13 +14,13 @@ use crate::layer_pixel::LayerPixel;
 use crate::lines::LineRenderer;
 use crate::look::StyledModel;
 use crate::model::Model;
+use crate::motion_lines::find_motion_lines;
 use crate::movement::Movement;
 use crate::options::{RendererOptions, check_size};
 use crate::part_info::PartInfo;
 use crate::smoke::Smoke;
 use crate::surfaces::Surfaces;
 use crate::tiles::Tiles;
-use crate::trails::find_trails;
 use npr_core::budget::Budget;
 use npr_core::camera::Camera;
 use npr_drawing::artwork::{ArtworkOptions, Mark, arrange};
@@ -31,6 +31,7 @@ use npr_scene::Scene;
 use npr_stylesheet::{SceneHint, Style};
 use npr_vector::stroke::Drawing;
 use std::borrow::Cow;
+use std::sync::Arc;
 
 /// The style that frames without a line model are drawn in, with what they tell where it is another one.
 pub(crate) fn without_lines(style: &Style) -> (Cow<'_, Style>, Option<String>) {
@@ -55,7 +56,7 @@ pub struct Renderer<'a> {
     blended: Option<(Box<Renderer<'a>>, Blending)>,
     lettering: Lettering,
     /// Where everything was before, where lines follow motion.
-    movement: Option<Movement>,
+    movement: Option<Arc<Movement>>,
     /// Called after every tile with the numbers of tiles done and of all.
     tell: Option<&'a dyn Fn(usize, usize)>,
 }
@@ -279,10 +280,13 @@ impl<'a> Renderer<'a> {
         }
     }
 
-    /// Where everything was before the pose that is drawn: frames have the speed lines of `motion.follow` along that way
-    /// from now on, in both looks of a blend. They are the strokes that
-    /// [`LineRenderer::set_movement`](crate::LineRenderer::set_movement) adds to drawings, and the same on any engine.
-    pub fn set_movement(&mut self, movement: Option<Movement>) {
+    /// Where everything was before the pose that is drawn: frames have what `[motion]` draws of that from now on, in both
+    /// looks of a blend: the strokes that [`LineRenderer::set_movement`](crate::LineRenderer::set_movement) adds to
+    /// drawings, the same on any engine.
+    pub fn set_movement(&mut self, movement: Option<Arc<Movement>>) {
+        if let Some(lines) = &mut self.lines {
+            lines.set_movement(movement.clone());
+        }
         if let Some((other, _)) = &mut self.blended {
             other.set_movement(movement.clone());
         }
@@ -546,7 +550,7 @@ impl<'a> Renderer<'a> {
         if let Some(movement) = &self.movement {
             let FramePlan { style, options, .. } = &frames.plan;
             let of_page = (options.stroke_size(), options.stroke_dpi());
-            let lines = find_trails(movement, (&begun.camera, style), of_page);
+            let lines = find_motion_lines(movement, (&begun.camera, style), of_page);
             lay_strokes_over(lines.enlarged(options.enlarged), frame);
         }
         if let (Some((other, blending)), Some(begun)) = (&mut self.blended, begun.other) {
@@ -574,7 +578,7 @@ fn lay_strokes_over(drawing: Drawing, frame: &mut Frame) {
 /// over it as a whole.
 fn draws_bands(plan: &FramePlan) -> bool {
     let (style, tiles) = (&plan.style, plan.tiles());
-    let has_trails = !style.trails().is_empty() || style.follow() > 0.0;
+    let has_trails = !style.trails().is_empty() || style.has_motion_lines();
     let goes_over = has_trails || style.blend.shows() || !style.lettering.is_empty();
     tiles.kept != tiles.frame && !goes_over && !plan.options.layers
 }

@@ -15,6 +15,7 @@ impl Style {
         style.line.method = OutlineMethod::Off;
         style.line.background = LineBackground::default();
         style.motion.follow = 0.0;
+        style.motion.ghosts = 0;
         for rule in &mut style.rule {
             rule.line.method = None;
             rule.line.background = RuleBackground::default();

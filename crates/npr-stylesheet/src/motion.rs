@@ -43,6 +43,16 @@ pub struct Motion {
     pub follow: f32,
     /// Least way on screen that such lines follow; default 40 pixels at frame height 1080. What moves less has none.
     pub least: Length,
+    /// How far lines of strokes lag behind on the side that a clip moves them away from, in ways of one shutter, 0..16;
+    /// default 0: not at all. 1 reaches back to the picture before, 3 a stretch.
+    #[schemars(range(min = 0.0, max = 16.0))]
+    pub smear: f32,
+    /// Outlines behind what a clip moves, of where it was, 0..8; default 0. Older ones are thinner and fainter.
+    #[schemars(range(max = 8))]
+    pub ghosts: u32,
+    /// Shutters from one of them to the next, 0.25..64; default 3. 1 a fan, 8 a row of figures.
+    #[schemars(range(min = 0.25, max = 64.0))]
+    pub ghost_gap: f32,
 }
 
 impl Default for Motion {
@@ -56,6 +66,9 @@ impl Default for Motion {
             shutter: 1.0 / 24.0,
             follow: 0.0,
             least: Length::ref_px(40.0),
+            smear: 0.0,
+            ghosts: 0,
+            ghost_gap: 3.0,
         }
     }
 }
@@ -81,16 +94,33 @@ impl Style {
         of_rules.fold(self.motion.follow, f32::max)
     }
 
+    /// Whether lines go over a picture that follow what moves in it: speed lines or after-images.
+    pub fn has_motion_lines(&self) -> bool {
+        self.follow() > 0.0 || self.motion.ghosts > 0
+    }
+
     /// Seconds before a picture at which it has to be known where everything was, in rising order; none where nothing
     /// follows motion.
     pub fn moments_s(&self) -> Vec<f32> {
-        let reach_s = self.follow() * self.motion.shutter;
-        let moments = (1..=MOMENTS).map(|i| reach_s * i as f32 / MOMENTS as f32);
-        moments.filter(|seconds| *seconds > 0.0).collect()
+        let motion = &self.motion;
+        let reach_s = self.follow() * motion.shutter;
+        let way = (1..=MOMENTS).map(|i| reach_s * i as f32 / MOMENTS as f32);
+        let smear = (motion.smear > 0.0).then_some(motion.shutter);
+        let ghosts = (1..=motion.ghosts).map(|i| motion.ghost_s(i));
+        let moments = way.chain(smear).chain(ghosts);
+        let mut moments: Vec<f32> = moments.filter(|seconds| *seconds > 0.0).collect();
+        moments.sort_by(f32::total_cmp);
+        moments.dedup();
+        moments
     }
 }
 
 impl Motion {
+    /// Seconds before a picture that after-image `number` shows, counted from 1.
+    pub fn ghost_s(&self, number: u32) -> f32 {
+        number as f32 * self.ghost_gap * self.shutter
+    }
+
     /// How much of a pixel speed lines cover, 0..1.
     ///
     /// `across` counts spacings across the lines, from anywhere; `along` is the distance from the part as a share of

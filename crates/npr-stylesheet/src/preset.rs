@@ -57,6 +57,7 @@ const PRESETS: &[Preset] = presets![
     "screentone" 5 "../presets/screentone.toml",
     "inked" 4 "../presets/inked.toml",
     "manga" 5 "../presets/manga.toml",
+    "speed" 1 "../presets/speed.toml",
     "brush" 5 "../presets/brush.toml",
     "ink-wash" 5 "../presets/ink-wash.toml",
     "sketch" 4 "../presets/sketch.toml",

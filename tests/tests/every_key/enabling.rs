@@ -404,6 +404,11 @@ const ENABLING: &[(&str, &[&str], &str)] = &[
         "no line follows what moves by default",
     ),
     (
+        "motion.ghost_gap",
+        &["motion.ghosts=2"],
+        "there are no after-images by default",
+    ),
+    (
         "blend",
         &["blend.amount=0.5"],
         "all of the look is drawn by default",

@@ -20,6 +20,7 @@ use npr_stylesheet::{Background, LineForm, Stated, Style};
 use npr_tests::{Object, boxed, placed, scene_of};
 use std::collections::BTreeMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
+use std::sync::Arc;
 
 /// Width and height of the pictures.
 const SIZE: [u32; 2] = [96, 72];
@@ -176,7 +177,7 @@ impl Studio {
 }
 
 /// Where everything of the scene was before: the box comes from the left and from above.
-fn movement(scene: &Scene, style: &Style) -> Option<Movement> {
+fn movement(scene: &Scene, style: &Style) -> Option<Arc<Movement>> {
     let mut scene = scene.clone();
     let rest = scene.nodes[1].world_from_node;
     Movement::of_style(&mut scene, style, |scene, seconds| {

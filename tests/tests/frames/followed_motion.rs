@@ -7,13 +7,14 @@ use npr_gpu::processor::Processor;
 use npr_mesh::testing::icosphere;
 use npr_render::{
     Drawing, Frame, Kind, LineModel, LineModelOptions, LineOptions, LineRenderer, Model, Movement,
-    Renderer, RendererOptions,
+    Renderer, RendererOptions, Subject,
 };
 use npr_scene::Scene;
 use npr_stylesheet::Style;
 use npr_tests::comic::{SIZE, front, pixel, style, wall};
 use npr_tests::{Object, boxed, device, placed, scene_of};
 use npr_vector::stroke::Stroke;
+use std::sync::Arc;
 
 /// A wall, a ball that moves before it, and a rock that stands still.
 fn scene() -> Scene {
@@ -36,12 +37,13 @@ fn following(settings: &[&str]) -> Style {
 }
 
 /// The scene with its ball where `way` has it so many seconds before, and where all of it was.
-fn moved(style: &Style, way: impl Fn(f32) -> [f32; 3]) -> (Scene, Option<Movement>) {
+fn moved(style: &Style, way: impl Fn(f32) -> [f32; 3]) -> (Scene, Option<Arc<Movement>>) {
     let mut scene = scene();
     let stand = |scene: &mut Scene, seconds: f32| {
         let [x, y, z] = way(seconds);
         scene.nodes[1].world_from_node[3] = [x, y, z, 1.0];
     };
+    stand(&mut scene, 0.0);
     let movement = Movement::of_style(&mut scene, style, stand).unwrap();
     (scene, movement)
 }
@@ -220,8 +222,129 @@ fn lines_bend_with_the_way() {
 }
 
 #[test]
+fn lines_lag_behind_on_the_trailing_side() {
+    // A shutter of a quarter of a second is 28.8 pixels of way.
+    let of = |smear: &str| {
+        let style = following(&["motion.follow=0", smear]);
+        let drawing = drawing(&style, from_the_left);
+        let ball = drawing
+            .surfaces
+            .iter()
+            .position(|surface| surface.object == "Ball");
+        let ball = ball.unwrap() as u32;
+        let strokes = drawing
+            .strokes
+            .iter()
+            .filter(|stroke| stroke.surface == ball);
+        let points = strokes.flat_map(|stroke| &stroke.points);
+        let places: Vec<[f64; 2]> = points.map(|point| point.position).collect();
+        let x = places.iter().map(|place| place[0]);
+        let y = places.iter().map(|place| place[1]);
+        [
+            x.clone().fold(f64::MAX, f64::min),
+            x.fold(f64::MIN, f64::max),
+            y.fold(f64::MIN, f64::max),
+        ]
+    };
+    let [plain, smeared] = ["motion.smear=0", "motion.smear=2"].map(of);
+    assert!(
+        (plain[0] - smeared[0] - 57.6).abs() < 1.0,
+        "{plain:?} {smeared:?}"
+    );
+    assert!(
+        (plain[1] - smeared[1]).abs() < 0.5,
+        "the leading side stays: {smeared:?}"
+    );
+    assert!(
+        (plain[2] - smeared[2]).abs() < 0.5,
+        "it goes level: {smeared:?}"
+    );
+}
+
+#[test]
+fn frames_have_the_lag_of_files() {
+    // The leftmost column that has ink of the ball's outline, in a frame of strokes and in a file.
+    let leftmost = |smear: &str| {
+        let keys = [
+            "motion.follow=0",
+            "line.method='strokes'",
+            "line.width.base=4px",
+            "line.width.source=constant",
+            smear,
+        ];
+        let style = following(&keys);
+        let (scene, movement) = moved(&style, from_the_left);
+        let subject = Subject::new(&scene, &style).unwrap();
+        let options = RendererOptions::new(SIZE);
+        let mut renderer = subject.renderer(&Processor, &style, &options).unwrap();
+        renderer.set_movement(movement);
+        let frame = renderer.draw(&front()).unwrap();
+        let drawing = drawing(&style, from_the_left);
+        let file = rasterise(&drawing, &ArtworkOptions::default());
+        let in_row = |is_ink: &dyn Fn(u32) -> bool| (0..SIZE[0]).find(|x| is_ink(*x)).unwrap();
+        let row = 91;
+        [
+            in_row(&|x| pixel(&frame, x, row)[0] < 100),
+            in_row(&|x| file[4 * (row * SIZE[0] + x) as usize + 3] > 150),
+        ]
+    };
+    let [plain, smeared] = ["motion.smear=0", "motion.smear=2"].map(leftmost);
+    assert!(plain[0].abs_diff(plain[1]) <= 1, "{plain:?}");
+    assert!(smeared[0].abs_diff(smeared[1]) <= 1, "{smeared:?}");
+    assert!(smeared[0] + 50 < plain[0], "{plain:?} {smeared:?}");
+}
+
+#[test]
+fn after_images_stand_where_it_was() {
+    let keys = [
+        "motion.follow=0",
+        "motion.ghosts=2",
+        "motion.ghost_gap=1.5",
+        "line.method='none'",
+    ];
+    let style = following(&keys);
+    let lines = drawing(&style, from_the_left);
+    let of = |number: &str| -> Vec<&Stroke> {
+        let is_it = |stroke: &&Stroke| {
+            let surface = &lines.surfaces[stroke.surface as usize];
+            surface.object == "after-images" && surface.material == number
+        };
+        lines.strokes.iter().filter(is_it).collect()
+    };
+    // They were 43.2 pixels apart, and the ball's radius is 38.4.
+    let widest = |strokes: &[&Stroke]| {
+        let points = strokes.iter().flat_map(|stroke| &stroke.points);
+        points.map(|point| point.width).fold(0.0, f64::max)
+    };
+    let [latest, oldest] = ["1", "2"].map(of);
+    for (number, strokes) in [(1.0, &latest), (2.0, &oldest)] {
+        assert!(!strokes.is_empty(), "{number}");
+        let middle = [208.0 - 43.2 * number, 91.2];
+        for point in strokes.iter().flat_map(|stroke| &stroke.points) {
+            let [x, y] = [0, 1].map(|i| point.position[i] - middle[i]);
+            assert!(
+                (x.hypot(y) - 38.4).abs() < 1.0,
+                "{number}: {:?}",
+                point.position
+            );
+            assert!(x < 20.0, "the later one lies over it");
+        }
+    }
+    assert!(widest(&latest) > 1.1 * widest(&oldest));
+    let alpha = |strokes: &[&Stroke]| strokes[0].points[0].color.unwrap()[3];
+    assert!(alpha(&latest) > alpha(&oldest));
+
+    // Frames have them, too.
+    let plain = following(&["motion.follow=0", "line.method='none'"]);
+    let [ghosts, none] = [&style, &plain].map(|style| frame_on(&Processor, style, from_the_left));
+    let changed = changed(&ghosts, &none);
+    assert!(changed.len() > 60);
+    assert!(changed.iter().all(|[x, _]| *x < 195));
+}
+
+#[test]
 fn cuts_and_numbers_that_are_none_leave_nothing_or_short_lines() {
-    let style = following(&[]);
+    let style = following(&["motion.smear=4", "motion.ghosts=3"]);
     let ways: [fn(f32) -> [f32; 3]; 5] = [
         |seconds| [if seconds > 0.0 { 1e30 } else { 0.5 }, 0.3, 0.0],
         |seconds| [0.5, if seconds > 0.4 { f32::NAN } else { 0.3 }, 0.0],
@@ -247,7 +370,7 @@ fn cuts_and_numbers_that_are_none_leave_nothing_or_short_lines() {
 #[test]
 fn both_engines_have_the_same_lines() {
     let Some(device) = device() else { return };
-    let style = following(&["line.method='none'"]);
+    let style = following(&["line.method='none'", "motion.ghosts=2"]);
     let of = |engine: &dyn Engine| {
         let frames = [
             frame_on(engine, &style, from_the_left),

@@ -255,8 +255,8 @@ fn check_recorded(style: &Style) -> Result<(), RenderError> {
             "motion.trail, which goes over the finished picture,",
         ),
         (
-            style.follow() > 0.0,
-            "motion.follow, which goes over the finished picture,",
+            style.has_motion_lines(),
+            "motion.follow or motion.ghosts, which go over the finished picture,",
         ),
         (
             style.blend.shows(),

@@ -81,6 +81,7 @@ pub(crate) fn sample_room(
         (manners.all.len() > PartWidths::MOST, "many manners"),
         (style.has_tufts(), "tufts"),
         (!style.line.guides.is_empty(), "guides"),
+        (style.motion.smear > 0.0, "motion.smear"),
         (options.layers, "layers"),
         (is_tiled, "tiles"),
     ];

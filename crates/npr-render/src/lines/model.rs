@@ -8,6 +8,7 @@ use super::finder::{Finder, OnProcessor};
 use super::options::{LineModelOptions, LineOptions};
 use super::paint::Paint;
 use super::prepared::PreparedOnDemand;
+use super::smear::Smear;
 use super::smoke::SmokeView;
 use super::stroke_contrast::StrokeContrast;
 use super::texture_map::TextureMap;
@@ -22,6 +23,8 @@ use crate::frame::Frame;
 use crate::kept::{Cache, input_of};
 use crate::look;
 use crate::manners::StrokeManners;
+use crate::motion_lines::Seen;
+use crate::movement::Movement;
 use crate::options::{Picture, check_size};
 use crate::part_info::PartInfo;
 use crate::pictures::Pictures;
@@ -34,7 +37,6 @@ use npr_core::crease::CreaseFrom;
 use npr_core::line_source::LineSource;
 use npr_core::texture::TextureStore;
 use npr_drawing::artwork::StrokeBrushes;
-use npr_drawing::guides::Guide;
 use npr_drawing::pressure::Pressure;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_scene::Scene;
@@ -50,7 +52,6 @@ use npr_vector::mesh_lines::puff::SilhouettePoint;
 use npr_vector::mesh_lines::run::RunPoint;
 use npr_vector::project::Projector;
 use npr_vector::stroke::{Drawing, Kind, Stroke};
-use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -116,6 +117,8 @@ struct Wanted<'a> {
     pictures: &'a BTreeMap<String, Picture>,
     /// A picture of the scene without lines and background, for lines whose colours follow it.
     behind: Option<&'a Frame>,
+    /// Where everything was before, where lines lag behind.
+    movement: Option<&'a Movement>,
     /// Whether it is left open what is seen of lines, and with that where they thin out.
     is_open: bool,
 }
@@ -271,7 +274,7 @@ impl LineModel {
         // Within the threads that share the work, so that each step does not wait for one of them to wake.
         rayon::scope(|_| {
             let find = &mut OnProcessor;
-            self.draw_with((camera, None), style, options, find, held)
+            self.draw_with((camera, None), style, options, find, (held, None))
         })
     }
 
@@ -318,14 +321,15 @@ impl LineModel {
         self.bounds = smoke::joined(self.smoke.as_ref(), bounds, self.points.is_empty());
     }
 
-    /// As [`LineModel::draw`], with lines that `find` finds, a picture of what lies behind them, and the frame before.
+    /// As [`LineModel::draw`], with lines that `find` finds, a picture of what lies behind them, the frame before, and
+    /// where everything was before.
     pub(super) fn draw_with(
         &self,
         (camera, behind): (&Camera, Option<&Frame>),
         style: &Style,
         options: &LineOptions,
         find: &mut dyn Finder,
-        held: Option<&mut HeldLines>,
+        (held, movement): (Option<&mut HeldLines>, Option<&Movement>),
     ) -> Result<Drawing, RenderError> {
         let wanted = Wanted {
             camera,
@@ -334,6 +338,7 @@ impl LineModel {
             smoke: self.smoke.as_ref(),
             pictures: &self.pictures,
             behind,
+            movement,
             is_open: false,
         };
         self.draw_some(&wanted, (find, held), |_| true)
@@ -348,7 +353,7 @@ impl LineModel {
         style: &Style,
         (options, is_open): (&LineOptions, bool),
         pictures: &BTreeMap<String, Picture>,
-        (find, held): (&mut dyn Finder, Option<&mut HeldLines>),
+        (find, (held, movement)): (&mut dyn Finder, (Option<&mut HeldLines>, Option<&Movement>)),
     ) -> Result<Drawing, RenderError> {
         let is_curve = |look: &Look<'_>| look.line_method.source() == Some(options.method);
         let folds_alone = LineOptions {
@@ -362,6 +367,7 @@ impl LineModel {
             smoke: None,
             pictures,
             behind: None,
+            movement,
             is_open,
         };
         self.draw_some(&wanted, (find, held), is_curve)
@@ -381,6 +387,7 @@ impl LineModel {
             smoke,
             pictures,
             behind,
+            movement,
             is_open,
         } = *wanted;
         check_size(options.size)?;
@@ -461,6 +468,9 @@ impl LineModel {
         } else {
             Vec::new()
         };
+        if let Some(movement) = movement.filter(|_| !options.method.is_of_pixels()) {
+            self.smear(&mut strokes, (movement, &projector), wanted);
+        }
         let manners = StrokeManners::new(&self.parts, style);
         let manner_of = |stroke: &Stroke| {
             let is_of_part = (stroke.surface as usize) < self.parts.len();
@@ -494,24 +504,22 @@ impl LineModel {
         })
     }
 
-    /// The guides of a style in a view: each lies on the vertex that was nearest to it in the first pose. Those behind
-    /// the eye are left out. O(guides x vertices).
-    fn guides(&self, style: &Style, projector: &Projector) -> Vec<Guide> {
-        let first = self
-            .first_positions
-            .as_ref()
-            .unwrap_or(&self.shape.positions);
-        let on_screen = |guide: &[f32; 3]| {
-            let guide = Vec3::from(*guide);
-            let away = |vertex: &u32| guide.distance_squared(Vec3::from(first[*vertex as usize]));
-            let all = (0..first.len() as u32).into_par_iter();
-            let nearest = all.min_by(|a, b| away(a).total_cmp(&away(b)).then(a.cmp(b)))?;
-            let world = self.shape.point(nearest);
-            let depth = projector.depth(world);
-            let place = projector.project(world);
-            (depth > projector.near()).then_some(Guide { place, depth })
+    /// Lets strokes lag behind what moves, as far as the style says so.
+    fn smear(
+        &self,
+        strokes: &mut [Stroke],
+        (movement, projector): (&Movement, &Projector),
+        wanted: &Wanted<'_>,
+    ) {
+        let (style, size) = (wanted.style, wanted.options.size);
+        let of_shape = (&self.shape, &self.posables);
+        let Some(smear) = Smear::new(of_shape, movement, style, size[1]) else {
+            return;
         };
-        style.line.guides.iter().filter_map(on_screen).collect()
+        let is_moving = movement.is_moving();
+        let view = wanted.camera.view(size, movement.bounds());
+        let seen = Seen::new((movement, &is_moving), style, &view, size);
+        smear.apply(strokes, projector, &seen);
     }
 
     /// What lengths are resolved with: the height of the picture and pixels per inch, and about how many pixels a unit

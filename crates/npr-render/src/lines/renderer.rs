@@ -7,9 +7,9 @@ use super::options::LineOptions;
 use crate::error::RenderError;
 use crate::frame::Frame;
 use crate::model::Model;
+use crate::motion_lines;
 use crate::movement::Movement;
 use crate::options::Picture;
-use crate::trails;
 use npr_core::camera::Camera;
 use npr_gpu::engine::{Engine, PassTime};
 use npr_scene::Scene;
@@ -17,6 +17,7 @@ use npr_stylesheet::Style;
 use npr_vector::stroke::Drawing;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// Draws the scene without lines, as a camera sees it, in a style and the size of a line drawing.
 pub(crate) type DrawBehind<'a> =
@@ -52,7 +53,7 @@ pub struct LineRenderer<'a> {
     /// The frame before, where strokes hold to it.
     held: Option<HeldLines>,
     /// Where everything was before, where lines follow motion.
-    movement: Option<Movement>,
+    movement: Option<Arc<Movement>>,
 }
 
 impl<'a> LineRenderer<'a> {
@@ -89,10 +90,11 @@ impl<'a> LineRenderer<'a> {
         self.held = Some(HeldLines::default());
     }
 
-    /// Where everything was before the pose that is drawn: drawings have the speed lines of `motion.follow` along that
-    /// way from now on, as strokes of kind [`Kind::Marked`](npr_vector::stroke::Kind) on an object "speed lines".
+    /// Where everything was before the pose that is drawn: drawings have what `[motion]` draws of that from now on. Lines
+    /// lag behind by `motion.smear`; speed lines and after-images are strokes of kind
+    /// [`Kind::Marked`](npr_vector::stroke::Kind) on objects "speed lines" and "after-images".
     /// [`Renderer::set_movement`](crate::Renderer::set_movement) draws the same ones.
-    pub fn set_movement(&mut self, movement: Option<Movement>) {
+    pub fn set_movement(&mut self, movement: Option<Arc<Movement>>) {
         self.movement = movement;
     }
 
@@ -155,11 +157,12 @@ impl<'a> LineRenderer<'a> {
         let model = self.posed.as_deref().unwrap_or(self.given);
         let find = self.finder.as_mut();
         let seen = (camera, behind.as_ref());
-        let mut drawing = model.draw_with(seen, style, options, find, self.held.as_mut())?;
+        let before = (self.held.as_mut(), self.movement.as_deref());
+        let mut drawing = model.draw_with(seen, style, options, find, before)?;
         if let Some(movement) = &self.movement {
             let of_page = (options.size, options.dpi);
-            let lines = trails::find_trails(movement, (camera, style), of_page);
-            trails::lay_over(&mut drawing, lines);
+            let lines = motion_lines::find_motion_lines(movement, (camera, style), of_page);
+            motion_lines::lay_over(&mut drawing, lines);
         }
         Ok(drawing)
     }
@@ -176,8 +179,8 @@ impl<'a> LineRenderer<'a> {
         self.finder.start_view();
         let model = self.posed.as_deref().unwrap_or(self.given);
         let find: &mut dyn Finder = self.finder.as_mut();
-        let by = (find, self.held.as_mut());
-        model.draw_curves(camera, style, (options, is_open), pictures, by)
+        let before = (self.held.as_mut(), self.movement.as_deref());
+        model.draw_curves(camera, style, (options, is_open), pictures, (find, before))
     }
 
     /// How long each pass of the last view took; none on the processor.

@@ -785,18 +785,45 @@ pub(super) const ENTRIES: &[Entry] = &[
         "no light throws shadows",
     ),
     entry(
-        &["motion.follow"],
+        &["motion.follow", "motion.smear", "motion.ghosts"],
         |c| !c.on.scene.clips,
         "the scene has no clips",
     ),
     entry(
-        &["motion.shutter", "motion.least"],
+        &["motion.smear"],
+        |c| c.traces_pixels(),
+        "lines that are found on pixels do not lag behind",
+    ),
+    entry(
+        &["motion.shutter"],
+        |c| !c.on.scene.clips || c.style.moments_s().is_empty(),
+        "nothing follows motion: motion.follow, smear and ghosts are 0, or the scene has no clips",
+    ),
+    entry(
+        &["motion.least"],
         |c| !c.follows_motion(),
         "motion.follow is 0, or the scene has no clips",
     ),
     entry(
+        &["motion.ghost_gap"],
+        |c| !c.on.scene.clips || c.style.motion.ghosts == 0,
+        "motion.ghosts is 0, or the scene has no clips",
+    ),
+    entry(
+        &["motion.color"],
+        |c| c.is_written_as(LineForm::Data),
+        "the file holds colours only of lines that change theirs",
+    ),
+    entry(
+        &["motion.color"],
+        |c| {
+            let has_lines = c.on.scene.clips && c.style.has_motion_lines();
+            !has_lines && (!c.is_frame() || c.style.trails().is_empty())
+        },
+        "nothing has speed lines: motion.follow and ghosts are 0, or the scene has no clips",
+    ),
+    entry(
         &[
-            "motion.color",
             "motion.spacing",
             "motion.weight",
             "motion.variation",
