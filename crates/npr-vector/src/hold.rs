@@ -10,6 +10,7 @@
 //! texture, so that dashes and stamps never stretch. Where parts of one stroke had textures of their own these stay,
 //! and change over along some pixels.
 
+mod between;
 mod identity;
 mod order;
 mod phase;
@@ -18,8 +19,10 @@ mod seam;
 mod votes;
 
 use crate::mesh_lines::run::distance;
+use crate::mesh_lines::{DrawnBetween, Tip};
 use crate::project::Projector;
 use crate::stroke::{Stroke, StrokePoint};
+use between::drawn_between;
 use glam::DVec3;
 use identity::settle_ids;
 use npr_mesh::half_edge::HalfEdgeMesh;
@@ -61,7 +64,27 @@ pub struct HeldStrokes {
     forward: Option<DVec3>,
 }
 
+/// The strokes of the frame before, in the view of this one.
+#[derive(Debug)]
+pub struct StrokesInView {
+    known: Known,
+}
+
+impl StrokesInView {
+    /// What was drawn between two ends of lines, for [`HeldJoints`](crate::mesh_lines::HeldJoints).
+    pub fn between(&self, tips: &[Tip; 2]) -> DrawnBetween {
+        drawn_between(&self.known, tips)
+    }
+}
+
 impl HeldStrokes {
+    /// What is known of the frame before, in a view of the shape as it is posed now. O(samples).
+    pub fn in_view(&self, shape: &HalfEdgeMesh, projector: &Projector) -> StrokesInView {
+        StrokesInView {
+            known: Known::new(&self.lines, &self.samples, shape, projector),
+        }
+    }
+
     /// Gives the strokes of a frame what they had in the frame before, and remembers them.
     ///
     /// `shape` is the surface in the pose of this frame, whatever pose it had before: its vertices, edges and faces

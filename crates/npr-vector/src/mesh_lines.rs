@@ -34,5 +34,5 @@ mod suppressed_edges;
 mod visibility;
 pub mod zero_set;
 
-pub use joints::HeldJoints;
+pub use joints::{DrawnBetween, HeldJoints, JointsInView, Tip, WasBetween};
 pub use merge::{DEPTH_SHARE, FACING_PX, STRAIGHT_COS, TOUCHING_PX};

@@ -41,7 +41,6 @@ use npr_drawing::pressure::Pressure;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_scene::Scene;
 use npr_stylesheet::{DepthSpace, Look, Style};
-use npr_vector::mesh_lines::HeldJoints;
 use npr_vector::mesh_lines::bvh::FaceTree;
 use npr_vector::mesh_lines::contour::EdgeContours;
 use npr_vector::mesh_lines::draw::{
@@ -50,6 +49,7 @@ use npr_vector::mesh_lines::draw::{
 use npr_vector::mesh_lines::intersect::{Crossings, crossings};
 use npr_vector::mesh_lines::puff::SilhouettePoint;
 use npr_vector::mesh_lines::run::RunPoint;
+use npr_vector::mesh_lines::{DrawnBetween, JointsInView, Tip};
 use npr_vector::project::Projector;
 use npr_vector::stroke::{Drawing, Kind, Stroke};
 use std::collections::BTreeMap;
@@ -443,7 +443,16 @@ impl LineModel {
         let surfaces = &self.shape.surfaces;
         let paint = Paint::new((&self.parts, surfaces), style, has_lines);
         let mut held = held.map(|held| held.of(options.method));
-        let joints = held.as_mut().map(|held| &mut held.joints);
+        let known = held
+            .as_ref()
+            .map(|held| held.strokes.in_view(&self.shape, &projector));
+        let was_between = |tips: &[Tip; 2]| match &known {
+            Some(known) => known.between(tips),
+            None => DrawnBetween::Nothing,
+        };
+        let joints = held
+            .as_mut()
+            .map(|held| held.joints.in_view(&self.shape, &projector, &was_between));
         let ViewStrokes {
             mut strokes,
             left_out,
@@ -593,7 +602,7 @@ impl LineModel {
         view: &LineView<'_>,
         (style, options): (&Style, &LineOptions),
         paint: &Paint,
-        (find, joints): (&mut dyn Finder, Option<&mut HeldJoints>),
+        (find, joints): (&mut dyn Finder, Option<JointsInView<'_>>),
     ) -> Result<ViewStrokes, RenderError> {
         // Trace lines from a picture of them, and measure how the shape bends while a device does.
         let radius = self.radius();

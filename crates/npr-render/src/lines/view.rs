@@ -6,7 +6,7 @@ use crate::error::RenderError;
 use crate::placement::Bounds;
 use npr_core::camera::Camera;
 use npr_mesh::half_edge::HalfEdgeMesh;
-use npr_vector::mesh_lines::HeldJoints;
+use npr_vector::mesh_lines::JointsInView;
 use npr_vector::mesh_lines::contour::EdgeContours;
 use npr_vector::mesh_lines::draw::{
     LineSettings, Prepared, StrokeLook, ViewStrokes, spines, strokes_with,
@@ -41,7 +41,7 @@ impl LineView<'_> {
         prepared: &Prepared,
         settings: &LineSettings,
         look: &StrokeLook<'_>,
-        held: Option<&mut HeldJoints>,
+        held: Option<JointsInView<'_>>,
     ) -> Result<ViewStrokes, RenderError> {
         if self.is_open {
             let (shape, contours) = (self.shape, self.contours);

@@ -220,6 +220,38 @@ fn lines_of_other_kinds_at_one_place_keep_their_own() {
 }
 
 #[test]
+fn between_two_ends_a_line_went_on_or_ended() {
+    let (shape, mut state) = (sheet(0.0), HeldStrokes::default());
+    let mut strokes = vec![line(1, 100.0, 300.0, 50.0), ring(0)];
+    state.hold(&mut strokes, &shape, &view(0.0));
+    let known = state.in_view(&shape, &view(30.0));
+    let tip = |x: f64, y: f64, out: [f64; 2]| Tip {
+        place: [x + 30.0, y],
+        out,
+        kind: Kind::Contour,
+        is_hidden: false,
+    };
+    let between = |[from, to]: [f64; 2], y| {
+        known.between(&[tip(from, y, [1.0, 0.0]), tip(to, y, [-1.0, 0.0])])
+    };
+    assert_eq!(between([180.0, 190.0], 51.0), DrawnBetween::Line);
+    assert_eq!(between([297.0, 304.0], 51.0), DrawnBetween::End);
+    assert_eq!(between([180.0, 190.0], 60.0), DrawnBetween::Nothing);
+
+    // Around a ring, past its start; not for ends that point across it, or of another kind.
+    let over = |out: f64, kind| {
+        let ends = [(230.0, out), (250.0, -out)].map(|(y, out)| Tip {
+            kind,
+            ..tip(399.4, y, [1.0 - out.abs(), out])
+        });
+        known.between(&ends)
+    };
+    assert_eq!(over(1.0, Kind::Contour), DrawnBetween::Line);
+    assert_eq!(over(0.0, Kind::Contour), DrawnBetween::Nothing);
+    assert_eq!(over(1.0, Kind::Crease), DrawnBetween::Nothing);
+}
+
+#[test]
 fn after_a_cut_nothing_is_taken_over() {
     let (shape, mut state) = (sheet(0.0), HeldStrokes::default());
     let mut first = vec![line(1, 100.0, 300.0, 50.0)];

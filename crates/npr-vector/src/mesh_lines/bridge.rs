@@ -38,7 +38,7 @@ impl Limits {
     fn of(bond: Bond) -> Self {
         let [reach, share, straight_cos, clear_px] = match bond {
             Bond::New => [1.0, BRIDGED_SHARE, STRAIGHT_COS, CLEAR_PX],
-            Bond::Joined => [1.3, 0.9, 0.88, 2.5],
+            Bond::Joined | Bond::Continued => [1.3, 0.9, 0.88, 2.5],
             Bond::Apart => [0.75, 0.6, 0.965, 5.0],
         };
         Self {
@@ -59,7 +59,7 @@ impl Limits {
 pub(crate) fn bridge_gaps(runs: Vec<Run>, held: Option<&mut JointsInView<'_>>) -> Vec<Run> {
     // Find gaps between ends that point at each other.
     let ends = ends_of(&runs);
-    let tips = tips_of(&ends);
+    let tips = tips_of(&runs, &ends);
     let bonds = held
         .as_ref()
         .map(|held| held.bonds(JoiningStep::Bridged, &runs, &tips));

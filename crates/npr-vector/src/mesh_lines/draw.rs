@@ -20,7 +20,7 @@ pub use prepared::{FindCrossings, Prepared};
 pub use spines::spines;
 
 use crate::mesh_lines::contour::{EdgeContours, Eye};
-use crate::mesh_lines::joints::HeldJoints;
+use crate::mesh_lines::joints::JointsInView;
 use crate::mesh_lines::puff::SmokeLines;
 use crate::mesh_lines::run_assembly::runs;
 use crate::mesh_lines::suppressed_edges::{edges_beside, suppressed_edges};
@@ -105,7 +105,7 @@ pub fn strokes_with(
     settings: &LineSettings,
     contours: &EdgeContours,
     look: &StrokeLook<'_>,
-    (smoke, held): (Option<&SmokeLines<'_>>, Option<&mut HeldJoints>),
+    (smoke, held): (Option<&SmokeLines<'_>>, Option<JointsInView<'_>>),
 ) -> Result<ViewStrokes, OverBudget> {
     let EdgeContours {
         front,
@@ -183,7 +183,6 @@ pub fn strokes_with(
 
     // Make strokes, with the outline of smoke after them.
     let lens = projector.lens();
-    let held = held.map(|held| held.in_view(shape, projector));
     let mut strokes = painted(calmed(found, settings, lens, held), shape, look, lens);
     if let Some(smoke) = smoke {
         let seen = Seen {

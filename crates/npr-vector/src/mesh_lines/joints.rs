@@ -73,76 +73,111 @@ struct HeldEnd {
 
 const _: () = assert!(size_of::<HeldEnd>() <= 64, "an end takes 64 bytes at most");
 
-/// An end of this frame.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Tip {
+/// An end of a line of this frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tip {
     /// In the picture, in pixels.
     pub place: [f64; 2],
-    /// Unit direction out of the run.
+    /// Unit direction out of the line.
     pub out: [f64; 2],
+    /// What the line is drawn as.
+    pub kind: Kind,
+    /// Whether something hides it.
+    pub is_hidden: bool,
 }
 
+/// What was drawn between two places in the frame before.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum DrawnBetween {
+    /// One line went on from the one to the other.
+    Line,
+    /// A line ended near one of them.
+    End,
+    /// Nothing of both.
+    Nothing,
+}
+
+/// Tells what was drawn between two ends in the frame before.
+pub type WasBetween<'a> = &'a dyn Fn(&[Tip; 2]) -> DrawnBetween;
+
 /// The joints of the frame before, in the view of this one.
-pub(crate) struct JointsInView<'a> {
-    pub held: &'a mut HeldJoints,
-    pub shape: &'a HalfEdgeMesh,
-    pub projector: &'a Projector,
+pub struct JointsInView<'a> {
+    held: &'a mut HeldJoints,
+    shape: &'a HalfEdgeMesh,
+    projector: &'a Projector,
+    was_between: WasBetween<'a>,
 }
 
 /// What two ends were in the frame before.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Bond {
-    /// One of them was not there.
+    /// One of them was not there, and no line ended near.
     New,
     /// They were joined.
     Joined,
-    /// They were there and not joined with each other.
+    /// One of them was not there, and a line went on between them.
+    Continued,
+    /// They were there and not joined with each other, or a line ended there.
     Apart,
 }
 
 /// What the ends of this frame were in the frame before.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct Bonds {
+#[derive(Clone, Default)]
+pub(crate) struct Bonds<'a> {
+    tips: Vec<Option<Tip>>,
     /// For each end the number of the one that it was, or [`NONE`]; empty where nothing was before.
     was: Vec<u32>,
     /// For each end of the frame before the one that it is, or [`NONE`].
     is: Vec<u32>,
-    /// For each end of the frame before the one that it was joined with, or [`NONE`].
-    mates: Vec<u32>,
+    /// The ends of the frame before.
+    before: Vec<HeldEnd>,
+    was_between: Option<WasBetween<'a>>,
 }
 
-impl Bonds {
+impl Bonds<'_> {
     /// What two ends were.
     pub fn of(&self, [a, b]: [usize; 2]) -> Bond {
-        let was = |end: usize| self.was.get(end).copied().filter(|was| *was != NONE);
-        match (was(a), was(b)) {
-            (Some(a), Some(b)) if self.mates[a as usize] == b => Bond::Joined,
-            (Some(_), Some(_)) => Bond::Apart,
-            _ => Bond::New,
+        let Some(was_between) = self.was_between else {
+            return Bond::New;
+        };
+        let (was_a, was_b) = (self.was[a], self.was[b]);
+        if was_a != NONE && was_b != NONE {
+            return match self.before[was_a as usize].mate == was_b {
+                true => Bond::Joined,
+                false => Bond::Apart,
+            };
+        }
+        let (Some(tip_a), Some(tip_b)) = (self.tips[a], self.tips[b]) else {
+            return Bond::New;
+        };
+        match was_between(&[tip_a, tip_b]) {
+            DrawnBetween::Line => Bond::Continued,
+            DrawnBetween::End => Bond::Apart,
+            DrawnBetween::Nothing => Bond::New,
         }
     }
 
     /// Whether nothing was before.
     pub fn is_empty(&self) -> bool {
-        self.was.is_empty()
+        self.was_between.is_none()
     }
 
     /// The pairs of ends that were joined, the lower number first.
     pub fn joined(&self) -> impl Iterator<Item = [usize; 2]> {
-        let pairs = self.is.iter().zip(&self.mates).filter_map(|(a, mate)| {
-            let b = *self.is.get(*mate as usize)?;
+        self.is.iter().zip(&self.before).filter_map(|(a, end)| {
+            let b = *self.is.get(end.mate as usize)?;
             (*a != NONE && b != NONE && *a < b).then_some([*a as usize, b as usize])
-        });
-        pairs
+        })
     }
 }
 
 impl HeldJoints {
     /// The joints of the frame before, for a view of the shape as it is posed now; none where the camera jumped.
-    pub(crate) fn in_view<'a>(
+    pub fn in_view<'a>(
         &'a mut self,
         shape: &'a HalfEdgeMesh,
         projector: &'a Projector,
+        was_between: WasBetween<'a>,
     ) -> JointsInView<'a> {
         let forward = projector.forward();
         if self
@@ -156,13 +191,14 @@ impl HeldJoints {
             held: self,
             shape,
             projector,
+            was_between,
         }
     }
 }
 
-impl JointsInView<'_> {
+impl<'a> JointsInView<'a> {
     /// What the ends of some runs were when a step joined those of the frame before; end `2 r` is the first of run `r`.
-    pub fn bonds(&self, step: JoiningStep, runs: &[Run], tips: &[Option<Tip>]) -> Bonds {
+    pub(crate) fn bonds(&self, step: JoiningStep, runs: &[Run], tips: &[Option<Tip>]) -> Bonds<'a> {
         let before = &self.held.steps[step as usize];
         if before.is_empty() {
             return Bonds::default();
@@ -180,16 +216,16 @@ impl JointsInView<'_> {
         let mut fits: Vec<(f64, usize, u32)> = Vec::new();
         for (number, tip) in tips.iter().enumerate() {
             let Some(tip) = tip else { continue };
-            let run = &runs[number / 2];
+            let id = runs[number / 2].id;
             for (other, place) in near.of(cells_around(cell_of(tip.place, REACH_PX))) {
                 let end = &before[*other as usize];
                 let cos = tip.out[0] * f64::from(end.out[0]) + tip.out[1] * f64::from(end.out[1]);
                 let away = distance(*place, tip.place);
-                let is_alike = end.kind == run.kind && end.is_hidden == (run.occluders > 0);
+                let is_alike = (end.kind, end.is_hidden) == (tip.kind, tip.is_hidden);
                 if is_alike && cos >= LEAST_COS && away <= REACH_PX {
                     let cost = away
                         + ACROSS_PX * (1.0 - cos)
-                        + OTHER_NAME_PX * f64::from(u8::from(end.id != run.id))
+                        + OTHER_NAME_PX * f64::from(u8::from(end.id != id))
                         + OLDER_PX * f64::from(end.age);
                     fits.push((cost, number, *other));
                 }
@@ -199,9 +235,11 @@ impl JointsInView<'_> {
         // Take the best ones, each end once.
         fits.sort_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
         let mut found = Bonds {
+            tips: tips.to_vec(),
             was: vec![NONE; tips.len()],
             is: vec![NONE; before.len()],
-            mates: before.iter().map(|end| end.mate).collect(),
+            before: before.clone(),
+            was_between: Some(self.was_between),
         };
         for (_, number, other) in fits {
             let (was, is) = (&mut found.was[number], &mut found.is[other as usize]);
@@ -220,12 +258,12 @@ impl JointsInView<'_> {
     }
 
     /// Remembers which ends a step joined, `usize::MAX` for none, and joints whose ends are not there.
-    pub fn remember(
+    pub(crate) fn remember(
         &mut self,
         step: JoiningStep,
         (runs, tips): (&[Run], &[Option<Tip>]),
         mates: &[usize],
-        bonds: &Bonds,
+        bonds: &Bonds<'_>,
     ) {
         // Number the ends.
         let mut numbers = vec![NONE; tips.len()];
@@ -242,25 +280,21 @@ impl JointsInView<'_> {
         for (number, tip) in tips.iter().enumerate() {
             let Some(tip) = tip else { continue };
             let run = &runs[number / 2];
-            let index = if number % 2 == 0 {
-                0
-            } else {
-                run.points.len() - 1
-            };
+            let index = (number % 2) * (run.points.len() - 1);
             let place = (tip.place, run.points[index].world);
             ends.push(HeldEnd {
                 anchor: Anchor::new(place, run.location_at(index), self.shape, self.projector),
                 out: tip.out.map(|v| v as f32),
                 id: run.id,
                 mate: numbers.get(mates[number]).copied().unwrap_or(NONE),
-                kind: run.kind,
-                is_hidden: run.occluders > 0,
+                kind: tip.kind,
+                is_hidden: tip.is_hidden,
                 age: 0,
             });
         }
 
         // Keep joints that are not there for some frames.
-        let before = std::mem::take(&mut self.held.steps[step as usize]);
+        let before = &bonds.before;
         let is_gone = |number: usize| bonds.is.get(number) == Some(&NONE);
         for (number, end) in before.iter().enumerate() {
             let mate = end.mate as usize;
@@ -269,8 +303,11 @@ impl JointsInView<'_> {
                 if pair.iter().all(|end| end.age < FRAMES_MOST) {
                     let first = ends.len() as u32;
                     for (end, mate) in pair.into_iter().zip([first + 1, first]) {
-                        let age = end.age + 1;
-                        ends.push(HeldEnd { mate, age, ..*end });
+                        ends.push(HeldEnd {
+                            mate,
+                            age: end.age + 1,
+                            ..*end
+                        });
                     }
                 }
             }

@@ -9,7 +9,7 @@ mod limits;
 pub use limits::{DEPTH_SHARE, STRAIGHT_COS};
 
 use crate::mesh_lines::corner::start_at_head;
-use crate::mesh_lines::joints::{Bonds, JoiningStep, JointsInView, Tip};
+use crate::mesh_lines::joints::{Bond, Bonds, JoiningStep, JointsInView, Tip};
 use crate::mesh_lines::near::cell_of;
 use crate::mesh_lines::run::{Run, RunPoint, distance};
 use limits::Limits;
@@ -56,7 +56,7 @@ pub(crate) fn merge_held(
     held: Option<(JoiningStep, &mut JointsInView<'_>)>,
 ) -> Vec<Run> {
     let ends = ends_of(&runs);
-    let tips = tips_of(&ends);
+    let tips = tips_of(&runs, &ends);
     let bonds = held
         .as_ref()
         .map(|(step, held)| held.bonds(*step, &runs, &tips));
@@ -88,13 +88,18 @@ pub(super) fn ends_of(runs: &[Run]) -> Vec<Option<End>> {
     (0..2 * runs.len()).map(|end| End::new(runs, end)).collect()
 }
 
-/// Where ends lie, and which way they point.
-pub(super) fn tips_of(ends: &[Option<End>]) -> Vec<Option<Tip>> {
-    let tip = |end: &End| Tip {
-        place: end.place,
-        out: end.out,
+/// Where ends lie, which way they point, and what they are ends of.
+pub(super) fn tips_of(runs: &[Run], ends: &[Option<End>]) -> Vec<Option<Tip>> {
+    let tip = |(number, end): (usize, &Option<End>)| {
+        let (run, end) = (&runs[number / 2], end.as_ref()?);
+        Some(Tip {
+            place: end.place,
+            out: end.out,
+            kind: run.kind,
+            is_hidden: run.occluders > 0,
+        })
     };
-    ends.iter().map(|end| end.as_ref().map(tip)).collect()
+    ends.iter().enumerate().map(tip).collect()
 }
 
 /// An end of an open run; end `2 r` is the first point of run `r`, `2 r + 1` its last.
@@ -176,7 +181,7 @@ pub(super) struct Meetings<'a> {
     runs: &'a [Run],
     ends: &'a [Option<End>],
     /// What they were in the frame before.
-    bonds: &'a Bonds,
+    bonds: &'a Bonds<'a>,
     reach_px: f64,
     /// Their numbers, the lower one first.
     pub pairs: Vec<[usize; 2]>,
@@ -185,10 +190,17 @@ pub(super) struct Meetings<'a> {
 }
 
 impl<'a> Meetings<'a> {
-    pub fn new(runs: &'a [Run], ends: &'a [Option<End>], reach_px: f64, bonds: &'a Bonds) -> Self {
+    pub fn new(
+        runs: &'a [Run],
+        ends: &'a [Option<End>],
+        reach_px: f64,
+        bonds: &'a Bonds<'a>,
+    ) -> Self {
         // Find what is near, and what was joined.
         let mut pairs = near_pairs(ends, reach_px);
         if !bonds.is_empty() {
+            let wide = near_pairs(ends, Limits::of(Bond::Joined).reach * reach_px).into_iter();
+            pairs.extend(wide.filter(|pair| bonds.of(*pair) == Bond::Continued));
             pairs.extend(bonds.joined());
             pairs.sort_unstable();
             pairs.dedup();

@@ -27,10 +27,15 @@ fn in_the_open(mut runs: Vec<Run>) -> Vec<Run> {
     runs
 }
 
+/// Nothing is known but ends.
+fn nothing(_: &[Tip; 2]) -> DrawnBetween {
+    DrawnBetween::Nothing
+}
+
 /// The runs of a frame joined where they face each other.
 fn faced(held: &mut HeldJoints, runs: Vec<Run>, projector: &Projector) -> Vec<Run> {
     let shape = HalfEdgeMesh::default();
-    let mut joints = held.in_view(&shape, projector);
+    let mut joints = held.in_view(&shape, projector, &nothing);
     let step = Some((JoiningStep::Facing, &mut joints));
     merge_held(in_the_open(runs), FACING_PX, step)
 }
@@ -120,7 +125,7 @@ proptest! {
         let still = bridge_gaps(merge_ends(in_the_open(runs.clone()), FACING_PX), None);
         for _ in 0..3 {
             let faced = faced(&mut held, runs.clone(), &view);
-            let bridged = bridge_gaps(faced, Some(&mut held.in_view(&shape, &view)));
+            let bridged = bridge_gaps(faced, Some(&mut held.in_view(&shape, &view, &nothing)));
             prop_assert_eq!(&bridged, &still);
         }
     }
@@ -151,7 +156,7 @@ proptest! {
             point.place[0] += f64::from(right);
         }
         let (shape, view) = (HalfEdgeMesh::default(), view(right, false));
-        let mut joints = held.in_view(&shape, &view);
+        let mut joints = held.in_view(&shape, &view, &nothing);
         let joined = merge_held(next, FACING_PX, Some((JoiningStep::Facing, &mut joints)));
         let longest = joined.iter().max_by(|a, b| a.length().total_cmp(&b.length())).expect("lines");
         prop_assert_eq!(joined.len(), 3);
@@ -192,4 +197,26 @@ fn after_a_cut_nothing_is_held() {
     let mut turned = held.clone();
     assert_eq!(faced(&mut held, runs(0.5), &view(0.0, false)).len(), 1);
     assert_eq!(faced(&mut turned, runs(0.5), &view(0.0, true)).len(), 2);
+}
+
+#[test]
+fn new_ends_are_joined_where_a_line_went_on() {
+    let (shape, view) = (HalfEdgeMesh::default(), view(0.0, false));
+    let beside = || vec![straight(7, [100.0, 300.0], 0.0, 90.0)];
+    for (between, most) in [
+        (DrawnBetween::Line, 12.0),
+        (DrawnBetween::Nothing, 8.0),
+        (DrawnBetween::End, 5.3),
+    ] {
+        let was_between = |_: &[Tip; 2]| between;
+        for (gap, is_joined) in [(most - 0.2, true), (most + 0.2, false)] {
+            let mut held = HeldJoints::default();
+            faced(&mut held, beside(), &view);
+            let runs = [Between::Gap.runs(gap / 20.0), beside()].concat();
+            let mut joints = held.in_view(&shape, &view, &was_between);
+            let step = Some((JoiningStep::Facing, &mut joints));
+            let joined = merge_held(in_the_open(runs), FACING_PX, step);
+            assert_eq!(joined.len() == 2, is_joined, "{gap} px, {between:?}");
+        }
+    }
 }

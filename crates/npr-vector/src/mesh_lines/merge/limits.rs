@@ -48,8 +48,15 @@ const JOINED: Limits = Limits {
     dot_cos: -0.25,
     corner_cos: -0.65,
     depth_share: 2.0 * DEPTH_SHARE,
-    favour: 1.0,
+    favour: 2.0,
     is_joined: true,
+};
+
+/// Those of ends where a line went on in the frame before.
+const CONTINUED: Limits = Limits {
+    corner_cos: PLAIN.corner_cos,
+    is_joined: false,
+    ..JOINED
 };
 
 /// Those of ends that were left apart.
@@ -69,6 +76,7 @@ impl Limits {
         match bond {
             Bond::New => PLAIN,
             Bond::Joined => JOINED,
+            Bond::Continued => CONTINUED,
             Bond::Apart => APART,
         }
     }
