@@ -160,8 +160,8 @@ pub struct Posed {
     pub warnings: Vec<String>,
 }
 
-/// Poses the scene as the user asked for, in a style that may follow motion; `flows` is whether pictures on its surfaces
-/// move in time, besides clips.
+/// Poses the scene as the user asked for, in a style that may follow motion; `flows` is whether pictures on its
+/// surfaces move in time, besides clips.
 pub fn pose(
     (args, flows): (&PoseArguments, bool),
     scene: &mut Scene,

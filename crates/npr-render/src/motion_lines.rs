@@ -4,25 +4,18 @@
 
 mod after_images;
 mod seen;
+mod sort;
 mod trails;
 
 use crate::movement::Movement;
 use npr_core::camera::Camera;
 use npr_stylesheet::Style;
-use npr_vector::stroke::{Drawing, Kind, Stroke, StrokePoint, StrokeSurface};
+use npr_vector::stroke::{Drawing, Kind, Stroke, StrokeSurface};
 pub(crate) use seen::Seen;
+use sort::MotionStrokes;
 
 /// A bit that all ids of these strokes have.
 const ID_BIT: u64 = 1 << 52;
-
-/// Strokes of one sort, before they have a place in a drawing.
-struct MotionStrokes {
-    /// Name of the object that they are, and of its material.
-    names: [String; 2],
-    /// Their points, each list with a number that stays with it from picture to picture.
-    strokes: Vec<(u64, Vec<StrokePoint>)>,
-    closed: bool,
-}
 
 /// The lines that draw the motion of a scene, as a camera sees them in a picture of `size` pixels at `dpi` pixels per
 /// inch.
@@ -56,17 +49,13 @@ pub(crate) fn find_motion_lines(
     let objects = movement.parts().iter().map(|info| info.object + 1);
     let object_number = objects.max().unwrap_or(0);
     for (surface, sort) in (0..).zip(found) {
-        let MotionStrokes {
-            names,
-            strokes,
-            closed,
-        } = sort;
+        let MotionStrokes { names, strokes } = sort;
         let strokes = strokes.into_iter().map(|(id, points)| Stroke {
             id: ID_BIT | id,
             kind: Kind::Marked,
             occluders: 0,
             surface,
-            closed,
+            closed: false,
             points,
         });
         drawing.strokes.extend(strokes);

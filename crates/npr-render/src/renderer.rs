@@ -280,9 +280,9 @@ impl<'a> Renderer<'a> {
         }
     }
 
-    /// Where everything was before the pose that is drawn: frames have what `[motion]` draws of that from now on, in both
-    /// looks of a blend: the strokes that [`LineRenderer::set_movement`](crate::LineRenderer::set_movement) adds to
-    /// drawings, the same on any engine.
+    /// Where everything was before the pose that is drawn: frames have what `[motion]` draws of that from now on, in
+    /// both looks of a blend: the strokes that [`LineRenderer::set_movement`](crate::LineRenderer::set_movement) adds
+    /// to drawings, the same on any engine.
     pub fn set_movement(&mut self, movement: Option<Arc<Movement>>) {
         if let Some(lines) = &mut self.lines {
             lines.set_movement(movement.clone());

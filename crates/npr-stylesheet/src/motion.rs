@@ -1,13 +1,13 @@
 //! Speed lines: motion blur as comics draw it.
 //!
-//! A part that moves leaves strokes behind, from its trailing edge towards where it came from: along a vector of a rule,
-//! or along the way that a clip really moved it. Each is widest at the part and ends in a point; no two are of one
-//! length. The requirement is [Suzuki 2004, chapter 6]'s; how they are drawn is ours.
+//! A part that moves leaves strokes behind, from its trailing edge towards where it came from: along a vector of a
+//! rule, or along the way that a clip really moved it. Each is widest at the part and ends in a point; no two are of
+//! one length. The requirement is [Suzuki 2004, chapter 6]'s; how they are drawn is ours.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::{Color, Length, Style};
+use crate::{Color, Length};
 use npr_core::random::{hash, unit};
 
 /// Most different trails in a style: each is a walk over the whole picture.
@@ -87,35 +87,21 @@ pub struct RuleMotion {
     pub follow: Option<f32>,
 }
 
-impl Style {
-    /// The most shutters that speed lines of any part follow what moves; 0 where none do.
-    pub fn follow(&self) -> f32 {
-        let of_rules = self.rule.iter().filter_map(|rule| rule.motion.follow);
-        of_rules.fold(self.motion.follow, f32::max)
-    }
-
-    /// Whether lines go over a picture that follow what moves in it: speed lines or after-images.
-    pub fn has_motion_lines(&self) -> bool {
-        self.follow() > 0.0 || self.motion.ghosts > 0
-    }
-
-    /// Seconds before a picture at which it has to be known where everything was, in rising order; none where nothing
-    /// follows motion.
-    pub fn moments_s(&self) -> Vec<f32> {
-        let motion = &self.motion;
-        let reach_s = self.follow() * motion.shutter;
+impl Motion {
+    /// Seconds before a picture at which it has to be known where everything was, in rising order, where speed lines
+    /// follow motion for so many shutters.
+    pub(crate) fn moments_s(&self, follow: f32) -> Vec<f32> {
+        let reach_s = follow * self.shutter;
         let way = (1..=MOMENTS).map(|i| reach_s * i as f32 / MOMENTS as f32);
-        let smear = (motion.smear > 0.0).then_some(motion.shutter);
-        let ghosts = (1..=motion.ghosts).map(|i| motion.ghost_s(i));
+        let smear = (self.smear > 0.0).then_some(self.shutter);
+        let ghosts = (1..=self.ghosts).map(|number| self.ghost_s(number));
         let moments = way.chain(smear).chain(ghosts);
         let mut moments: Vec<f32> = moments.filter(|seconds| *seconds > 0.0).collect();
         moments.sort_by(f32::total_cmp);
         moments.dedup();
         moments
     }
-}
 
-impl Motion {
     /// Seconds before a picture that after-image `number` shows, counted from 1.
     pub fn ghost_s(&self, number: u32) -> f32 {
         number as f32 * self.ghost_gap * self.shutter
@@ -140,7 +126,7 @@ impl Motion {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::StyleError;
+    use crate::{Style, StyleError};
     use proptest::prelude::*;
 
     fn read(text: &str) -> Result<Style, StyleError> {

@@ -162,4 +162,21 @@ impl Style {
         }
         trails
     }
+
+    /// The most shutters that speed lines of any part follow what moves; 0 where none do.
+    pub fn follow(&self) -> f32 {
+        let of_rules = self.rule.iter().filter_map(|rule| rule.motion.follow);
+        of_rules.fold(self.motion.follow, f32::max)
+    }
+
+    /// Whether lines go over a picture that follow what moves in it: speed lines or after-images.
+    pub fn has_motion_lines(&self) -> bool {
+        self.follow() > 0.0 || self.motion.ghosts > 0
+    }
+
+    /// Seconds before a picture at which it has to be known where everything was, in rising order; none where nothing
+    /// follows motion.
+    pub fn moments_s(&self) -> Vec<f32> {
+        self.motion.moments_s(self.follow())
+    }
 }

@@ -378,5 +378,6 @@ fn both_engines_have_the_same_lines() {
         ];
         changed(&frames[0], &frames[1])
     };
-    assert_eq!(of(&Processor), of(device));
+    let ours = of(&Processor);
+    assert!(ours.len() > 100 && ours == of(device), "{}", ours.len());
 }

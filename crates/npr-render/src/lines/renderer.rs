@@ -90,8 +90,8 @@ impl<'a> LineRenderer<'a> {
         self.held = Some(HeldLines::default());
     }
 
-    /// Where everything was before the pose that is drawn: drawings have what `[motion]` draws of that from now on. Lines
-    /// lag behind by `motion.smear`; speed lines and after-images are strokes of kind
+    /// Where everything was before the pose that is drawn: drawings have what `[motion]` draws of that from now on.
+    /// Lines lag behind by `motion.smear`; speed lines and after-images are strokes of kind
     /// [`Kind::Marked`](npr_vector::stroke::Kind) on objects "speed lines" and "after-images".
     /// [`Renderer::set_movement`](crate::Renderer::set_movement) draws the same ones.
     pub fn set_movement(&mut self, movement: Option<Arc<Movement>>) {

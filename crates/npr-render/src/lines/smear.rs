@@ -31,8 +31,8 @@ pub(super) struct Smear<'a> {
 }
 
 impl<'a> Smear<'a> {
-    /// That of a shape in a style and a picture so many pixels high; none where nothing lags behind, or the movement is that of another shape. O(vertices +
-    /// faces).
+    /// That of a shape in a style and a picture so many pixels high; none where nothing lags behind, or the movement is
+    /// that of another shape. O(vertices + faces).
     pub fn new(
         (shape, posables): (&'a HalfEdgeMesh, &Posables),
         movement: &Movement,
@@ -74,10 +74,10 @@ impl<'a> Smear<'a> {
         })
     }
 
-    /// Lets contours and boundaries lag behind in a picture, where what moves ends on the side that it came from: wholly
-    /// where the surface is turned that way, less the more it is turned aside, and not at all where it leads. Lines
-    /// within what moves stay, and so do those that would lag into it. What strokes lie on, their depths and places in
-    /// the world stay. O(points), parallel.
+    /// Lets contours and boundaries lag behind in a picture, where what moves ends on the side that it came from:
+    /// wholly where the surface is turned that way, less the more it is turned aside, and not at all where it leads.
+    /// Lines within what moves stay, and so do those that would lag into it. What strokes lie on, their depths and
+    /// places in the world stay. O(points), parallel.
     pub fn apply(&self, strokes: &mut [Stroke], projector: &Projector, seen: &Seen<'_>) {
         let ends = |kind: Kind| matches!(kind, Kind::Contour | Kind::Boundary);
         let lagging = strokes.par_iter_mut().filter(|stroke| ends(stroke.kind));

@@ -3,8 +3,8 @@
 //! What moves is drawn on a grid as it stood at a moment before, and the border of all of it is traced. An outline is
 //! hidden by what moves, by later after-images, and by what stands before it.
 
-use super::MotionStrokes;
 use super::seen::Seen;
+use super::sort::MotionStrokes;
 use crate::movement::Movement;
 use glam::{DVec2, Vec2};
 use npr_stylesheet::Style;
@@ -62,7 +62,6 @@ pub(super) fn find(
         sorts.push(MotionStrokes {
             names: [OBJECT.to_owned(), number.to_string()],
             strokes: (first..).zip(ghost.drawn()).collect(),
-            closed: false,
         });
         for (covered, depth) in covered.iter_mut().zip(&depths) {
             *covered |= *depth > 0.0;

@@ -3,14 +3,14 @@
 //! Lines begin where moving surfaces end in the picture, on the side that they come from, and run along the way of that
 //! point of the surface through the moments before. They lie behind all that moves, and behind what stands before them.
 
-use super::MotionStrokes;
 use super::seen::Seen;
+use super::sort::MotionStrokes;
 use crate::movement::Movement;
 use glam::{Vec2, Vec3};
 use npr_core::random::{hash, unit};
 use npr_core::surface::weights_at;
 use npr_stylesheet::Style;
-use npr_vector::stroke::StrokePoint;
+use npr_vector::stroke::{StrokePoint, length_of};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Name of the object whose strokes speed lines are.
@@ -81,7 +81,6 @@ pub(super) fn find(
             MotionStrokes {
                 names: [OBJECT.to_owned(), name.unwrap_or_default()],
                 strokes: Vec::new(),
-                closed: false,
             }
         });
         let ordinals = (0..256).zip(runs);
@@ -327,6 +326,12 @@ impl Finder<'_> {
         }
         runs.push(run);
         runs.retain(|run| run.len() >= 3);
+
+        // Leave out what is too short where what moves covers the rest.
+        let seen_px: f64 = runs.iter().map(|run| length_of(run, false)).sum();
+        if seen_px < 0.5 * f64::from(self.least_px) {
+            runs.clear();
+        }
         runs
     }
 }

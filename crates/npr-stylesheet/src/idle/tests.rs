@@ -37,7 +37,7 @@ fn what_presets_say_is_nobodys_wish() {
 
 /// A style file that states one key of pictures over a preset.
 fn stated_over(preset: &str) -> Stated {
-    stated(&format!("extends = '{preset}'\nmotion.seed = 1"))
+    stated(&format!("extends = '{preset}'\nblend.amount = 0.5"))
 }
 
 #[test]
