@@ -158,11 +158,11 @@ mod tests {
         for far in [guide([40.0, 20.0], &line), deep] {
             let mut found = vec![line.clone()];
             assert!(cut_at_guides(&mut found, &[far], 5.0, |_| true).is_empty());
-            assert_eq!(found, [line.clone()]);
+            assert_eq!(found, std::slice::from_ref(&line));
         }
         let mut found = vec![line.clone()];
         let lifted = cut_at_guides(&mut found, &[guide([97.0, 10.0], &line)], 5.0, |_| true);
-        assert_eq!(found, [line.clone()]);
+        assert_eq!(found, std::slice::from_ref(&line));
         assert_eq!(lifted.get(&line.id), Some(&[false, true]));
     }
 

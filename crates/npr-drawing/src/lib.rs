@@ -5,10 +5,10 @@
 //! write that, [`json`] the strokes themselves; [`ink`] gives points for the pass that inks a frame, and [`stamps`]
 //! where the image of a brush lies. On the way [`fit`] makes cubic curves of points, [`outline`] the outline of a
 //! stroke whose width varies, and [`plot`] an order with short ways in the air. [`stubs`] leaves out short lines that
-//! end in the open, [`guides`] ends lines where somebody says so, [`overshoot`] lets strokes run on beyond their ends, [`pressure`] makes them swell and thin out by
-//! curves, [`room`] thins those that lie side by side, [`taper`] all at their ends, [`hand`] lets them sway and draws
-//! them more than once, and [`dash`] cuts them. [`fill`] makes closed regions of what lines enclose, [`lettering`]
-//! outlines of words, and [`centreline`] files of centre lines.
+//! end in the open, [`guides`] ends lines where somebody says so, [`overshoot`] lets strokes run on beyond their ends,
+//! [`pressure`] makes them swell and thin out by curves, [`room`] thins those that lie side by side, [`taper`] all at
+//! their ends, [`hand`] lets them sway and draws them more than once, and [`dash`] cuts them. [`fill`] makes closed
+//! regions of what lines enclose, [`lettering`] outlines of words, and [`centreline`] files of centre lines.
 //!
 //! ```
 //! use npr_drawing::svg::{SvgOptions, write_svg};
