@@ -1,12 +1,17 @@
-//! Line drawings of procedural meshes from ten thousand to a million triangles: preparing, and a view.
+//! Line drawings of procedural meshes from ten thousand to a million triangles: preparing, a view, and frames of films.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use npr_benches::lines::subjects::{SIZE, benchmark_camera, knot, scene_of};
+use glam::Vec3;
+use npr_benches::lines::subjects::{SIZE, benchmark_camera, knot, scene_of, shared_models};
+use npr_benches::motion::film::Film;
 use npr_benches::solid::bumpy_ball;
-use npr_render::{LineModel, LineModelOptions, LineOptions, LineSource};
-use npr_scene::Scene;
+use npr_render::{HeldLines, LineModel, LineModelOptions, LineOptions, LineSource};
+use npr_scene::{LoadOptions, Scene, load};
 use npr_stylesheet::Style;
 use std::time::Duration;
+
+/// Frames of films.
+const FILM_SIZE: [u32; 2] = [1920, 1080];
 
 const SIZES: [u32; 5] = [10_000, 31_622, 100_000, 316_226, 1_000_000];
 
@@ -58,6 +63,43 @@ fn view(c: &mut Criterion) {
     }
 }
 
+/// Frames of a film, each from a view half a degree on, by themselves and held to those before.
+fn film(c: &mut Criterion) {
+    // Take a model that is always there, and one of many strokes where there is one.
+    let mut scenes = vec![("bumpy ball", bumpy_ball(100_000))];
+    let helmet = shared_models().join("flight_helmet.glb");
+    scenes.extend(
+        load(&helmet, &LoadOptions::default())
+            .ok()
+            .map(|scene| ("flight helmet", scene)),
+    );
+    let mut style = Style::preset("toon").expect("a preset");
+    style.set("line.method=strokes").expect("a method");
+    let options = LineOptions::of_style(&style, FILM_SIZE);
+
+    let mut group = c.benchmark_group("film");
+    for (name, scene) in scenes {
+        let model = LineModel::for_style(&scene, &style, &LineModelOptions::default(), None)
+            .expect("the mesh can be numbered");
+        let (low, high) = model.bounds();
+        let [low, high] = [low, high].map(Vec3::from);
+        let sphere = ((low + high) / 2.0, low.distance(high) / 2.0);
+        for (hold, is_held) in [("off", false), ("on", true)] {
+            let (mut frame, mut held) = (0, HeldLines::default());
+            group.bench_function(BenchmarkId::new(format!("hold {hold}"), name), |b| {
+                b.iter(|| {
+                    let camera = Film::Turn.camera(frame, sphere, FILM_SIZE[1]);
+                    frame += 1;
+                    match is_held {
+                        true => model.draw_held(&camera, &style, &options, &mut held),
+                        false => model.draw(&camera, &style, &options),
+                    }
+                });
+            });
+        }
+    }
+}
+
 /// Few samples, so that all of it takes some minutes.
 fn settings() -> Criterion {
     Criterion::default()
@@ -66,5 +108,5 @@ fn settings() -> Criterion {
         .measurement_time(Duration::from_secs(3))
 }
 
-criterion_group!(name = benches; config = settings(); targets = prepare, view);
+criterion_group!(name = benches; config = settings(); targets = prepare, view, film);
 criterion_main!(benches);
