@@ -25,6 +25,9 @@ const LEAP_SHARE: f32 = 0.5;
 /// Share of a line's way that may lie on what moves before the line begins.
 const LATEST_START: f32 = 0.3;
 
+/// Shortest line, as a share of the least way that is followed.
+const SHORTEST_SHARE: f32 = 0.7;
+
 /// Spacings along the motion within which two lines keep their distance from each other.
 const LANE_SPACINGS: f32 = 12.0;
 
@@ -243,9 +246,10 @@ impl Finder<'_> {
             let Some((place, reversed)) = self.seen.place_px(world) else {
                 break;
             };
-            if let (Some((first, ..)), Some((last, ..))) = (knots.first(), knots.last()) {
-                let is_cut = last.distance(place) > LEAP_SHARE * self.height_px;
-                if is_cut || first.distance(place) < first.distance(*last) {
+            if let Some((last, ..)) = knots.last() {
+                let leg = place - *last;
+                let is_cut = leg.length() > LEAP_SHARE * self.height_px;
+                if is_cut || leg.dot(start.back) < 0.0 {
                     break;
                 }
             }
@@ -284,7 +288,8 @@ impl Finder<'_> {
         let of_group = unit(hash(start.group, 3, 0));
         let torn = motion.variation * (0.6 * chance(1) + 0.4 * of_group);
         let end = whole_px * (1.0 - torn);
-        if end - gap < 0.5 * self.least_px || of_group > 1.0 - 0.3 * motion.variation {
+        let shortest_px = SHORTEST_SHARE * self.least_px;
+        if end - gap < shortest_px || of_group > 1.0 - 0.3 * motion.variation {
             return Vec::new();
         }
         let widest = motion.weight * self.spacing_px * (0.3 + 0.7 * chance(2) * chance(2));
@@ -329,7 +334,7 @@ impl Finder<'_> {
 
         // Leave out what is too short where what moves covers the rest.
         let seen_px: f64 = runs.iter().map(|run| length_of(run, false)).sum();
-        if seen_px < 0.5 * f64::from(self.least_px) {
+        if seen_px < f64::from(shortest_px) {
             runs.clear();
         }
         runs
