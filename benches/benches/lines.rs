@@ -1,4 +1,4 @@
-//! Line drawings of procedural meshes from ten thousand to a million triangles: preparing, a view, and frames of films.
+//! Line drawings of procedural meshes from ten thousand to a million triangles: preparing, a view, and films.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use glam::Vec3;

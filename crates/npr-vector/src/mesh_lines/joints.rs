@@ -197,7 +197,8 @@ impl HeldJoints {
 }
 
 impl<'a> JointsInView<'a> {
-    /// What the ends of some runs were when a step joined those of the frame before; end `2 r` is the first of run `r`.
+    /// What the ends of some runs were when a step joined those of the frame before; end `2 r` is the first of run
+    /// `r`.
     pub(crate) fn bonds(&self, step: JoiningStep, runs: &[Run], tips: &[Option<Tip>]) -> Bonds<'a> {
         let before = &self.held.steps[step as usize];
         if before.is_empty() {

@@ -2,7 +2,7 @@
 //!
 //! Noise in the orientation of faces breaks one outline into loops that touch; to the eye it is one line. A pen goes
 //! on where ends face each other, where they run past each other side by side, and around a corner that nothing else
-//! leaves. Where a frame was drawn before, what it joined stays joined, and what it left apart stays apart, by a margin.
+//! leaves. After a frame of a film what it joined stays joined, and what it left apart stays apart, by a margin.
 
 mod limits;
 

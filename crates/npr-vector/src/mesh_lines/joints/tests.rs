@@ -116,7 +116,7 @@ proptest! {
     ) {
         let made = |(id, (from, turn, length, deep)): (u64, &([f64; 2], u32, f64, u32))| {
             let from = from.map(|v| 100.0 + v.round());
-            let mut run = straight(id, from, 0.5236 * f64::from(*turn), *length);
+            let mut run = straight(id, from, std::f64::consts::FRAC_PI_6 * f64::from(*turn), *length);
             run.points.iter_mut().for_each(|p| p.depth = 1.0 + 0.01 * f64::from(*deep));
             run
         };
