@@ -8,7 +8,6 @@ use super::finder::{Finder, OnProcessor};
 use super::options::{LineModelOptions, LineOptions};
 use super::paint::Paint;
 use super::prepared::PreparedOnDemand;
-use super::smear::Smear;
 use super::smoke::SmokeView;
 use super::stroke_contrast::StrokeContrast;
 use super::texture_map::TextureMap;
@@ -23,7 +22,6 @@ use crate::frame::Frame;
 use crate::kept::{Cache, input_of};
 use crate::look;
 use crate::manners::StrokeManners;
-use crate::motion_lines::Seen;
 use crate::movement::Movement;
 use crate::options::{Picture, check_size};
 use crate::part_info::PartInfo;
@@ -478,7 +476,8 @@ impl LineModel {
             Vec::new()
         };
         if let Some(movement) = movement.filter(|_| !options.method.is_of_pixels()) {
-            self.smear(&mut strokes, (movement, &projector), wanted);
+            let view = (camera, style, options.size);
+            self.smear(&mut strokes, (movement, &projector), view);
         }
         let manners = StrokeManners::new(&self.parts, style);
         let manner_of = |stroke: &Stroke| {
@@ -511,24 +510,6 @@ impl LineModel {
             regions,
             notices: notices_of_view(prepared.so_far(), left_out),
         })
-    }
-
-    /// Lets strokes lag behind what moves, as far as the style says so.
-    fn smear(
-        &self,
-        strokes: &mut [Stroke],
-        (movement, projector): (&Movement, &Projector),
-        wanted: &Wanted<'_>,
-    ) {
-        let (style, size) = (wanted.style, wanted.options.size);
-        let of_shape = (&self.shape, &self.posables);
-        let Some(smear) = Smear::new(of_shape, movement, style, size[1]) else {
-            return;
-        };
-        let is_moving = movement.is_moving();
-        let view = wanted.camera.view(size, movement.bounds());
-        let seen = Seen::new((movement, &is_moving), style, &view, size);
-        smear.apply(strokes, projector, &seen);
     }
 
     /// What lengths are resolved with: the height of the picture and pixels per inch, and about how many pixels a unit

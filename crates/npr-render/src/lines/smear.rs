@@ -1,9 +1,11 @@
 //! Lines that lag behind what moves: strokes are drawn out towards where their surface was.
 
+use super::model::LineModel;
 use super::welded::Posables;
 use crate::motion_lines::Seen;
 use crate::movement::Movement;
 use glam::{DVec3, Vec2, Vec3};
+use npr_core::camera::Camera;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_stylesheet::Style;
 use npr_vector::project::Projector;
@@ -19,8 +21,27 @@ const EASE_SHARE: f64 = 0.02;
 /// How far beside a line nothing may move on the side that it lags to, in cells.
 const BESIDE_CELLS: [f64; 2] = [3.0, 8.0];
 
+impl LineModel {
+    /// Lets strokes lag behind what moves, as far as a style says so, in a picture of `size` pixels.
+    pub(super) fn smear(
+        &self,
+        strokes: &mut [Stroke],
+        (movement, projector): (&Movement, &Projector),
+        (camera, style, size): (&Camera, &Style, [u32; 2]),
+    ) {
+        let of_shape = (&self.shape, &self.posables);
+        let Some(smear) = Smear::new(of_shape, movement, style, size[1]) else {
+            return;
+        };
+        let is_moving = movement.is_moving();
+        let view = camera.view(size, movement.bounds());
+        let seen = Seen::new((movement, &is_moving), style, &view, size);
+        smear.apply(strokes, projector, &seen);
+    }
+}
+
 /// How strokes of a shape lag behind.
-pub(super) struct Smear<'a> {
+struct Smear<'a> {
     shape: &'a HalfEdgeMesh,
     /// From every vertex to where it was one shutter before, times the style's share; in the world.
     back: Vec<Vec3>,
