@@ -111,26 +111,36 @@ fn each_id_is_there_once_and_lines_of_pictures_are_those_of_stills() {
         for (held, still) in held.iter().zip(&stills) {
             let ids: BTreeSet<u64> = held.strokes.iter().map(|stroke| stroke.id).collect();
             assert_eq!(ids.len(), held.strokes.len());
-            let lengths = |drawing: &Drawing| {
-                let mut all: Vec<f64> = drawing
-                    .strokes
-                    .iter()
-                    .map(|stroke| stroke.length())
-                    .collect();
-                all.sort_by(f64::total_cmp);
-                all
-            };
-
-            // Joints of lines on meshes hold, and so lengths of strokes are others; there is as much ink.
-            let [a, b] = [held, still].map(lengths);
             if method == LineSource::Image {
+                let lengths = |drawing: &Drawing| {
+                    let strokes = drawing.strokes.iter();
+                    let mut all: Vec<f64> = strokes.map(|stroke| stroke.length()).collect();
+                    all.sort_by(f64::total_cmp);
+                    all
+                };
+                let [a, b] = [held, still].map(lengths);
                 assert!(a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-6));
             } else {
-                let [held, still] = [a, b].map(|all| all.iter().sum::<f64>());
-                assert!((held - still).abs() < 0.05 * still, "{held} of {still} px");
+                // Joints of lines on meshes hold, so that other gaps are closed: by 12 pixels at most, and by 30 between
+                // contours. In the middle of one it is half of that to the lines of a still.
+                assert!(farthest(held, still) <= 15.0 && farthest(still, held) <= 15.0);
             }
         }
     }
+}
+
+/// How far the points of one drawing's lines lie from those of another at most, in pixels.
+fn farthest(from: &Drawing, to: &Drawing) -> f64 {
+    let points = |drawing: &Drawing| -> Vec<[f64; 2]> {
+        let points = drawing.strokes.iter().flat_map(|stroke| &stroke.points);
+        points.map(|point| point.position).collect()
+    };
+    let [from, to] = [from, to].map(points);
+    let away = |[x, y]: [f64; 2]| {
+        let all = to.iter().map(|other| (other[0] - x).hypot(other[1] - y));
+        all.fold(f64::MAX, f64::min)
+    };
+    from.into_iter().map(away).fold(0.0, f64::max)
 }
 
 /// How many ends of the strokes of all frames have none near them in the next one, as a share.
