@@ -121,8 +121,8 @@ fn each_id_is_there_once_and_lines_of_pictures_are_those_of_stills() {
                 let [a, b] = [held, still].map(lengths);
                 assert!(a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-6));
             } else {
-                // Joints of lines on meshes hold, so that other gaps are closed: by 12 pixels at most, and by 30 between
-                // contours. In the middle of one it is half of that to the lines of a still.
+                // Joints of lines on meshes hold, so other gaps are closed: of 12 pixels at most, and of 30 between
+                // contours. From the middle of one it is half of that to the lines of a still.
                 assert!(farthest(held, still) <= 15.0 && farthest(still, held) <= 15.0);
             }
         }
