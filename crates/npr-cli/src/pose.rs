@@ -84,6 +84,8 @@ pub struct Stance {
     posture: Option<Posture>,
     /// Shares of expressions, by number.
     shares: BTreeMap<u32, f32>,
+    /// Most bytes that it may take to know where everything was.
+    memory_limit: u64,
     /// What there is to warn of.
     pub warnings: Vec<String>,
 }
@@ -99,6 +101,7 @@ impl Stance {
         let mut stance = Self {
             clip: clip.cloned(),
             shares: shares_of(&args.expressions, scene)?,
+            memory_limit: limits.memory_bytes,
             ..Self::default()
         };
         if let Some(path) = &args.pose {
@@ -143,7 +146,7 @@ impl Stance {
         if self.clip.is_none() {
             return Ok(None);
         }
-        Movement::of_style(scene, style, |scene, before_s| {
+        Movement::of_style(scene, (style, self.memory_limit), |scene, before_s| {
             self.stand(scene, time_s - before_s);
         })
     }

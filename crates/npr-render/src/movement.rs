@@ -4,6 +4,7 @@ use crate::error::RenderError;
 use crate::part_info::PartInfo;
 use crate::placement::{self, Bounds};
 use glam::Vec3;
+use npr_core::budget::Budget;
 use npr_core::camera::bounds_of;
 use npr_core::geometry::{Part, Triangle};
 use npr_scene::Scene;
@@ -92,16 +93,27 @@ impl Movement {
     ///
     /// # Errors
     ///
-    /// Those of [`Movement::add`].
+    /// [`RenderError::Memory`] where all places take more than `memory_limit` bytes; the scene is not posed then. Those
+    /// of [`Movement::add`].
     pub fn of_style(
         scene: &mut Scene,
-        style: &Style,
+        (style, memory_limit): (&Style, u64),
         mut stand: impl FnMut(&mut Scene, f32),
     ) -> Result<Option<Arc<Self>>, RenderError> {
         let moments = style.moments_s();
         if moments.is_empty() {
             return Ok(None);
         }
+        let meshes = scene
+            .nodes
+            .iter()
+            .filter_map(|node| scene.meshes.get(node.mesh? as usize));
+        let parts = meshes.flat_map(|mesh| &mesh.parts);
+        let vertices: usize = parts.map(|part| part.positions.len()).sum();
+        // Where they are now, where they lie in their meshes, and where they were.
+        let bytes = (moments.len() + 2) * size_of::<[f32; 3]>();
+        Budget::new(memory_limit).take("the motion of a scene", vertices, bytes)?;
+
         stand(scene, 0.0);
         let mut movement = Self::new(scene);
         for seconds in moments {

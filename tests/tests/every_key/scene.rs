@@ -180,7 +180,7 @@ impl Studio {
 fn movement(scene: &Scene, style: &Style) -> Option<Arc<Movement>> {
     let mut scene = scene.clone();
     let rest = scene.nodes[1].world_from_node;
-    Movement::of_style(&mut scene, style, |scene, seconds| {
+    Movement::of_style(&mut scene, (style, u64::MAX), |scene, seconds| {
         let place = &mut scene.nodes[1].world_from_node[3];
         place[0] = rest[3][0] - 4.0 * seconds;
         place[1] = rest[3][1] + 3.0 * seconds;

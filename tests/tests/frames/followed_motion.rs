@@ -7,7 +7,7 @@ use npr_gpu::processor::Processor;
 use npr_mesh::testing::icosphere;
 use npr_render::{
     Drawing, Frame, Kind, LineModel, LineModelOptions, LineOptions, LineRenderer, Model, Movement,
-    Renderer, RendererOptions, Subject,
+    RenderError, Renderer, RendererOptions, Subject,
 };
 use npr_scene::Scene;
 use npr_stylesheet::Style;
@@ -44,7 +44,7 @@ fn moved(style: &Style, way: impl Fn(f32) -> [f32; 3]) -> (Scene, Option<Arc<Mov
         scene.nodes[1].world_from_node[3] = [x, y, z, 1.0];
     };
     stand(&mut scene, 0.0);
-    let movement = Movement::of_style(&mut scene, style, stand).unwrap();
+    let movement = Movement::of_style(&mut scene, (style, u64::MAX), stand).unwrap();
     (scene, movement)
 }
 
@@ -172,7 +172,7 @@ fn nothing_is_drawn_over_what_moves_or_stands_before_it() {
         Object::new("Ball", placed(&icosphere(4), [0.4; 3], [0.0; 3])),
         slab,
     ]);
-    let movement = Movement::of_style(&mut scene, &style, |scene, seconds| {
+    let movement = Movement::of_style(&mut scene, (&style, u64::MAX), |scene, seconds| {
         let [x, y, z] = from_the_left(seconds);
         scene.nodes[0].world_from_node[3] = [x, y, z, 1.0];
     });
@@ -380,4 +380,27 @@ fn both_engines_have_the_same_lines() {
     };
     let ours = of(&Processor);
     assert!(ours.len() > 100 && ours == of(device), "{}", ours.len());
+}
+
+/// Where everything was counts towards the limit of memory: 12 bytes for each vertex and moment.
+#[test]
+fn motion_beyond_the_limit_of_memory_is_refused() {
+    let style = following(&[]);
+    let vertices: usize = scene()
+        .meshes
+        .iter()
+        .flat_map(|mesh| &mesh.parts)
+        .map(|part| part.positions.len())
+        .sum();
+    let moved = |memory_limit| {
+        let mut scene = scene();
+        let movement = Movement::of_style(&mut scene, (&style, memory_limit), |scene, seconds| {
+            scene.nodes[1].world_from_node[3] = [seconds, 0.0, 0.0, 1.0];
+        });
+        movement.map(|movement| movement.is_some())
+    };
+    // Eight moments, and both where they are now and where they lie in their meshes.
+    let bytes = (vertices * 12 * 10) as u64;
+    assert!(matches!(moved(bytes), Ok(true)));
+    assert!(matches!(moved(bytes - 1), Err(RenderError::Memory(_))));
 }
