@@ -9,7 +9,7 @@ use crate::Stated;
 use crate::former::notice;
 use crate::key::lies_in;
 use case::Case;
-use table::{ENTRIES, Why};
+use table::{Why, entries};
 
 /// Longest notice, in characters. With the command's own prefix it fits on one line of standard error.
 const NOTICE_LENGTH: usize = 270;
@@ -56,7 +56,7 @@ impl Stated {
     /// The reason why a key of the style has no effect on an occasion; `None` where it has an effect.
     pub fn idle_reason(&self, key: &str, occasion: &Occasion) -> Option<String> {
         let case = Case::new(self.style(), key, occasion);
-        let entry = ENTRIES.iter().find(|entry| {
+        let entry = entries().find(|entry| {
             let is_meant = entry.keys.iter().any(|pattern| covers(pattern, case.key));
             is_meant && (entry.is_idle)(&case)
         })?;
