@@ -105,6 +105,7 @@ struct Part {
     hatch_grain: f32,
     spots_per_px: f32,
     toon: u32,
+    tone_reach_px: f32,
 }
 
 const PART_DOUBLE_SIDED: u32 = 1u;

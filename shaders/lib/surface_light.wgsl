@@ -23,6 +23,11 @@ struct RampLight {
     blue: vec4<f32>,
 }
 
+// One light for four coordinates.
+fn same_ramp_light(light: vec3<f32>) -> RampLight {
+    return RampLight(vec4<f32>(light.r), vec4<f32>(light.g), vec4<f32>(light.b));
+}
+
 // `ramp_light` for four coordinates: the ramp is looked at once.
 fn ramp_lights(part: u32, x: vec4<f32>) -> RampLight {
     var light: RampLight;

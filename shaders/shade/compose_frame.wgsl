@@ -38,6 +38,7 @@
 @group(0) @binding(19) var<uniform> rules: Rules;
 @group(0) @binding(20) var fronts: texture_2d<f32>;
 @group(0) @binding(21) var backs: texture_2d<f32>;
+@group(0) @binding(22) var<storage, read> evened: array<u32>;
 
 //# use lib/texture
 //# use lib/samples
@@ -45,6 +46,7 @@
 //# use lib/surface_color
 //# use lib/base_color
 //# use lib/surface_light
+//# use lib/even_tones
 //# use lib/hull
 //# use lib/surface_line
 //# use lib/grazing
@@ -128,8 +130,10 @@ fn shade_surface(
 ) -> Drawn {
     // Take what is known of the triangle, and find the colour of the surface where it is not.
     let part = triangle.part;
-    let is_plain = (constants.bits & KNOWN_PLAIN) != 0u;
-    let is_even = (constants.bits & KNOWN_EVEN) != 0u && !is_hull;
+    var even_tone: Evened;
+    if !is_hull { even_tone = evened_light(part, frame_px); }
+    let is_plain = (constants.bits & KNOWN_PLAIN) != 0u && !even_tone.is_so;
+    let is_even = (constants.bits & KNOWN_EVEN) != 0u && !is_hull && !even_tone.is_so;
     let is_toon = is_toon(part) || is_hull;
     var color = constants.color;
     var paint: ToonPaint;
@@ -146,7 +150,8 @@ fn shade_surface(
     var open: SkyPoint;
     if !is_even && !is_hull { open = openness(corners, center); }
     let first = members & (~members + 1u);
-    let is_gentle = is_gentle(part);
+    let is_quiet = even_tone.is_so && lights.shadow_side == 0u && (parts[part].flags & PART_ANGLE) == 0u;
+    let is_gentle = is_gentle(part) || is_quiet;
     let shines = has_highlights(part) && (constants.bits & KNOWN_MATT) == 0u;
     let by_sample = !is_hull && (!(is_even || is_gentle) || (shines && !shines_gently(part)));
     let counted = select(first, members, by_sample);
@@ -155,7 +160,7 @@ fn shade_surface(
     var toon = vec3<f32>(0.0);
     var lined = 0.0;
     var darks = vec4<u32>(0u);
-    var tones = vec4<f32>(0.0);
+    var places = vec4<f32>(0.0);
     var tints: RampLight;
     var left = counted;
     loop {
@@ -172,7 +177,7 @@ fn shade_surface(
             if !is_hull { open_here = open_at(open, at - center); }
             if is_toon { toon += toon_light(part, paint, world, normal, dark, open_here) * share; }
             let lit = coordinate_under(world, normal, dark, open_here);
-            tones = with_sample(tones, i, lit.x);
+            places = with_sample(places, i, lit.x);
             tints.red = with_sample(tints.red, i, lit.color.r);
             tints.green = with_sample(tints.green, i, lit.color.g);
             tints.blue = with_sample(tints.blue, i, lit.color.b);
@@ -190,7 +195,7 @@ fn shade_surface(
     if is_gentle && shines && by_sample {
         let weights = weights_at(corners.clip, ndc_at(view, center));
         let lit = coordinate_under(world_of(corners, weights), normal_of(corners, weights), 0u, open_at(open, vec2<f32>(0.0)));
-        tones = vec4<f32>(lit.x);
+        places = vec4<f32>(lit.x);
         tints = RampLight(vec4<f32>(lit.color.r), vec4<f32>(lit.color.g), vec4<f32>(lit.color.b));
     }
 
@@ -199,7 +204,8 @@ fn shade_surface(
         let lit = select(counted, first, is_gentle);
         let lit_share = 1.0 / f32(countOneBits(lit));
         let samples = samples_in(lit);
-        let ramp = ramp_lights(part, tones);
+        var ramp = ramp_lights(part, places);
+        if even_tone.is_so { ramp = same_ramp_light(even_tone.light); }
         light.r = sum_over(ramp.red * tints.red * lit_share, samples);
         light.g = sum_over(ramp.green * tints.green * lit_share, samples);
         light.b = sum_over(ramp.blue * tints.blue * lit_share, samples);
@@ -229,7 +235,7 @@ fn surfaces(pixel: vec2<u32>, smoke_layer: SmokeLayer, frame_px: vec2<f32>) -> v
         // Shade it where its colour is not known whole.
         let constants = triangles[(id & ID_MASK) - 1u];
         var light = constants.color;
-        if (constants.bits & KNOWN_WHOLE) == 0u || is_of_hull(id) {
+        if (constants.bits & KNOWN_WHOLE) == 0u || is_of_hull(id) || is_evened(constants.part) {
             light = shade(id, constants, bits_of(members), frame_px);
         }
         if share != 0.0 { sum += vec4<f32>(light, 1.0) * share; }

@@ -22,6 +22,8 @@
 @group(0) @binding(7) var<storage, read> known: array<TriangleConstants>;
 @group(0) @binding(8) var<storage, read_write> frame: array<u32>;
 @group(0) @binding(9) var<storage, read_write> list: array<atomic<u32>>;
+@group(0) @binding(10) var<storage, read> parts: array<Part>;
+@group(0) @binding(11) var<storage, read> evened: array<u32>;
 
 //# use lib/samples
 //# use lib/ribbon_layer
@@ -30,6 +32,7 @@
 //# use lib/beam_ids
 //# use lib/hull
 //# use lib/left_out
+//# use lib/settled_tone
 
 // One colour as an sRGB texel, if it is known.
 struct Known {
@@ -51,6 +54,7 @@ fn filled(pixel: vec2<u32>, element: u32) -> Known {
     let first = known_texel(seen.x);
     let lined = (ribbon_texel(pixel) | overlay_texel(element)) >> 24u;
     if !first.is_so || lined != 0u || has_smoke(pixel) || has_beams(pixel) { return Known(false, 0u); }
+    if !is_settled(pixel, seen) { return Known(false, 0u); }
     if compose.samples == 1u || all(seen == vec4<u32>(seen.x)) { return first; }
     let b = known_texel(seen.y);
     let c = known_texel(seen.z);

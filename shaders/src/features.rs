@@ -73,6 +73,8 @@ features! {
     GRAIN = 25;
     /// Surfaces are lit as toon materials say.
     TOON = 26;
+    /// Tones are evened where they would be slivers.
+    EVEN_TONES = 27;
 }
 
 impl Features {

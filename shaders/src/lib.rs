@@ -208,6 +208,12 @@ shaders! {
     SHADE_FILL_FRAME = "shade/fill_frame";
     /// Shades surfaces and lays lines over them.
     SHADE_COMPOSE_FRAME = "shade/compose_frame";
+    /// Finds the tone of every pixel.
+    SHADE_FIND_TONES = "shade/find_tones";
+    /// Finds the tiles in which tones may change.
+    SHADE_FLAG_TONES = "shade/flag_tones";
+    /// Evens tones.
+    SHADE_EVEN_TONES = "shade/even_tones";
     /// Finds how deep each pixel of a picture lies.
     SHADE_FIND_DEPTHS = "shade/find_depths";
 }

@@ -268,6 +268,8 @@ pub struct Part {
     pub spots_per_px: f32,
     /// Where its toon material starts in the texture store, with [`Part::TOON`] or [`Part::TOON_LINE`].
     pub toon: u32,
+    /// Radius in pixels of the disc over which its tones are evened; 0 leaves them as light makes them.
+    pub tone_reach_px: f32,
     /// Fills up what these leave of a multiple of 16 bytes.
     pub unused: [u32; UNUSED],
 }
@@ -319,10 +321,11 @@ gpu_layout!(Part {
     hatch_grain,
     spots_per_px,
     toon,
+    tone_reach_px,
 });
 
 /// Words of [`Part`] from the light behind to its end, the last that it fills.
-const LAST: usize = 3 + COLORED_KINDS + 3;
+const LAST: usize = 3 + COLORED_KINDS + 4;
 
 /// Words of [`Part`] behind them.
 const UNUSED: usize = LAST.next_multiple_of(4) - LAST;

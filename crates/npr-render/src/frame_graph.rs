@@ -10,6 +10,7 @@ use npr_gpu::pass::{Features, Format, Pass};
 use npr_gpu::passes::{line, mesh, raster, shade};
 use npr_mesh::pose::Matrix;
 use npr_style::compose::{Compose, TriangleConstants};
+use npr_style::even_tones::tiles_of;
 use npr_style::lighting::Lights;
 
 /// Numbers of elements that decide the sizes of buffers.
@@ -99,6 +100,8 @@ pub(crate) struct FrameGraph {
     /// Triangle numbers and depths of colour samples.
     pub ids: ResourceId,
     pub depths: ResourceId,
+    /// Size of the picture.
+    output: [u32; 2],
 }
 
 /// What the last pass lays over surfaces; of a single texel where a style asks for none.
@@ -144,6 +147,7 @@ impl FrameGraph {
             list: graph.buffer::<u32>("listed pixels", grids.output_pixels() + 1),
             ids: graph.image("ids", Format::U32, grids.color()),
             depths: graph.image("depths", Format::Depth, grids.color()),
+            output: grids.output,
             graph,
         };
 
@@ -224,6 +228,9 @@ impl FrameGraph {
         sides: [ResourceId; 2],
         frame: ResourceId,
     ) {
+        // Even the tones, where a style asks for it.
+        let evened = self.even_tones(compose, ids, layers);
+
         // Fill the pixels of one known colour, and list the others.
         let fill = [
             self.output_window,
@@ -236,6 +243,8 @@ impl FrameGraph {
             self.known,
             frame,
             self.list,
+            self.parts,
+            evened,
         ];
         self.graph.compute(&shade::FILL_FRAME, &fill);
 
@@ -263,10 +272,51 @@ impl FrameGraph {
             &layers.smoke,
             &[layers.rules],
             &sides,
-            &[self.triangles],
+            &[evened, self.triangles],
         ];
         let bound = bound.concat();
         self.compute_listed(&shade::COMPOSE_FRAME, &bound, self.list);
+    }
+
+    /// Adds the passes that even the tones of the triangles in `ids`; gives what they make, a single word where no part
+    /// asks for it.
+    fn even_tones(&mut self, compose: ResourceId, ids: ResourceId, layers: &Layers) -> ResourceId {
+        // Make room for it.
+        let evens = self.graph.features().meets(Features::EVEN_TONES);
+        let pixels = pixel_count(size_if(evens, self.output));
+        let evened = self.graph.buffer::<u32>("evened tones", pixels);
+        if !evens {
+            return evened;
+        }
+        let tone_map = self.graph.buffer::<u32>("tone map", pixels);
+        let tiles = tiles_of(self.output);
+        let tone_flags = self.graph.image("tone flags", Format::U32, tiles);
+
+        // Find the tone of every pixel, then the tiles with several, then the medians.
+        let bound = [
+            self.view,
+            self.output_window,
+            compose,
+            self.lights,
+            ids,
+            self.posed,
+            self.vertices,
+            self.known,
+            self.parts,
+            self.texels,
+            layers.shadows,
+            layers.smoke[2],
+            tone_map,
+            self.triangles,
+        ];
+        self.graph.compute(&shade::FIND_TONES, &bound);
+        let (window, parts) = (self.output_window, self.parts);
+        let bound = [window, parts, tone_map];
+        self.graph
+            .draw(&shade::FLAG_TONES, &bound, &[tone_flags], true);
+        let bound = [window, parts, tone_map, tone_flags, evened];
+        self.graph.compute(&shade::EVEN_TONES, &bound);
+        evened
     }
 
     /// Appends a pass over the elements of a list; gives its size, for further passes over them.

@@ -155,6 +155,8 @@ impl Needs {
             let rules = contrast.rules(style, features, reach, px, measure.samples);
             reach = reach.max(rules.room_px() as f32);
         }
+        let tones = styled.parts.iter().map(|part| part.tone_reach_px.ceil());
+        reach = tones.fold(reach, f32::max);
         if options.smoke.is_some() {
             reach = reach.max(measure.reach_px(&style.smoke));
         }
@@ -238,6 +240,7 @@ impl Needs {
             Features::TEXTURES.when(shows_pictures || has_toons),
             Features::COLORS.when(is_colored),
             Features::TONE_ROWS.when(any(Part::TONE_ROW)),
+            Features::EVEN_TONES.when(parts.iter().any(|part| part.tone_reach_px > 0.0)),
             Features::TOON.when(has_toons),
             Features::LIGHTS.when(!is_one_sun),
             Features::SHADOWS.when(casts),

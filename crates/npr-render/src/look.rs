@@ -25,6 +25,7 @@ use npr_core::texture::{self, TextureStore, Wrap};
 use npr_core::window::View;
 use npr_mesh::curvature::tightest;
 use npr_style::compose::Compose;
+use npr_style::even_tones::{has_steps, reach_px};
 use npr_style::ramp::Level;
 use npr_stylesheet::{
     Background, Edge, Highlight, HighlightModel, Look, OutlineMethod, ShadeMode, Style, Unit,
@@ -88,6 +89,13 @@ impl StyledModel {
             base_width: outline(style, model.radius(), height, options.dpi, 0).base_width,
         };
         add_toons(model, style, measure, &mut parts, &mut textures);
+        let least_px = style
+            .shade
+            .least
+            .to_px(height as f32, options.dpi, world_px);
+        for part in parts.iter_mut().filter(|part| has_steps(part)) {
+            part.tone_reach_px = reach_px(least_px);
+        }
         add_line_colors(
             &model.parts,
             style,

@@ -22,6 +22,7 @@ pub mod compose;
 mod corners;
 mod dome;
 pub mod draw_mask;
+pub mod even_tones;
 pub mod gloss;
 pub mod hatch;
 pub mod inking;

@@ -18,6 +18,7 @@ use npr_core::geometry::Part;
 use npr_core::math;
 use npr_core::raster::ID_MASK;
 use npr_core::surface::{blend, dot, weights_around, weights_at};
+use npr_core::window::View;
 
 /// Widest line of the surface-angle method, in line widths: a surface that turns more slowly counts as flat.
 const ANGLE_WIDTHS: f32 = 6.0;
@@ -49,6 +50,17 @@ pub(crate) fn inked(part: &Part, lit: [f32; 3], share: f32) -> [f32; 3] {
     std::array::from_fn(|i| lit[i] + (ink[i] - lit[i]) * (share * ink[3]))
 }
 
+/// The surface of a triangle under a position of the frame: the weights of its corners, its place, its normal.
+#[inline]
+pub(crate) fn surface_at(
+    view: &View,
+    corners: &Corners<'_>,
+    frame_px: [f32; 2],
+) -> ([f32; 3], [f32; 3], [f32; 3]) {
+    let weights = weights_at(corners.clip, view.ndc_at(frame_px));
+    (weights, corners.world(weights), corners.normal(weights))
+}
+
 /// Samples of a pixel that show one triangle.
 #[derive(Debug, Clone, Copy)]
 struct Group {
@@ -59,6 +71,8 @@ struct Group {
     /// Middle of the pixel in the frame; the middle of the samples follows.
     frame_px: [f32; 2],
     center: [f32; 2],
+    /// Light of the part's ramp in the pixel, where its tones are evened.
+    evened: Option<[f32; 3]>,
 }
 
 /// The sums over a group's samples.
@@ -129,7 +143,8 @@ impl Layers<'_> {
             return None;
         }
         let normal = corners.posed[0].normal.map(|n| n * corners.side);
-        Some(self.light_of(part, corners.posed[0].world, normal, 0, Openness::FULL))
+        let at = (corners.posed[0].world, normal);
+        Some(self.light_of((part, None), at, 0, Openness::FULL))
     }
 
     /// Whether a part's ramp has one tone for all coordinates in `range`.
@@ -150,6 +165,11 @@ impl Layers<'_> {
             && part.flags & (Part::ANGLE | Part::TONE_ROW | Part::TOON) == 0
     }
 
+    /// Whether the light of a group is evened and nothing else has edges within it.
+    fn is_evened(&self, group: &Group, part: &Part) -> bool {
+        group.evened.is_some() && self.lights.shadow_side == 0 && part.flags & Part::ANGLE == 0
+    }
+
     /// Light of triangle `id`, which the samples in `members` show.
     ///
     /// `known` holds the triangle's constants; `contrast_cache` holds recent answers for lines.
@@ -165,7 +185,12 @@ impl Layers<'_> {
         // Find the colour of the surface.
         let triangle = &self.triangles[((id & ID_MASK) - 1) as usize];
         let part = &self.parts[triangle.part as usize];
-        let group = self.group(id, members, frame_px);
+        let evened = self.evened_light(triangle.part, frame_px);
+        let group = self.group(id, members, frame_px, evened);
+        let known = &match evened {
+            Some(_) => known.without_light(),
+            None => *known,
+        };
         let is_toon = part.flags & Part::TOON != 0;
         let paint = is_toon.then(|| self.toon_paint(triangle, part, corners, group.center));
         let color = if is_toon {
@@ -201,7 +226,7 @@ impl Layers<'_> {
         std::array::from_fn(|i| drawn[i] + (line[i] - drawn[i]) * sampled.line)
     }
 
-    fn group(&self, id: u32, members: u32, frame_px: [f32; 2]) -> Group {
+    fn group(&self, id: u32, members: u32, frame_px: [f32; 2], evened: Option<[f32; 3]>) -> Group {
         let count = members.count_ones() as f32;
         let mut center = frame_px;
         for i in (0..4).filter(|i| members & (1 << i) != 0) {
@@ -213,6 +238,7 @@ impl Layers<'_> {
             members,
             frame_px,
             center,
+            evened,
         }
     }
 
@@ -227,22 +253,22 @@ impl Layers<'_> {
     ) -> Sampled {
         // Look at every sample where an edge of the light may go through the group.
         let is_even = known.is_even();
-        if !is_even && !self.is_gentle(part) {
+        if !is_even && !self.is_gentle(part) && !self.is_evened(group, part) {
             return self.at_samples(group, (part, paint), corners, known);
         }
 
         // Find the surface at the middle, once for light and highlights.
         let shines = !known.is_matt();
         let middle = (!is_even || shines && shines_gently(part)).then(|| {
-            let weights = weights_at(corners.clip, self.view.ndc_at(group.center));
-            (corners.world(weights), corners.normal(weights))
+            let (_, world, normal) = surface_at(self.view, corners, group.center);
+            (world, normal)
         });
 
         // Take what is the same all over, or what is there.
         let light = match middle {
             Some((world, normal)) if !is_even => {
                 let open = self.openness(corners, group.center).at([0.0; 2]);
-                self.light_of(part, world, normal, 0, open)
+                self.light_of((part, group.evened), (world, normal), 0, open)
             }
             _ if known.is_plain() => [1.0; 3],
             _ => known.color,
@@ -320,7 +346,7 @@ impl Layers<'_> {
             let open = open.at([px[0] - group.center[0], px[1] - group.center[1]]);
             let light = match paint {
                 Some(paint) => self.toon_light(part, paint, (world, normal), dark, open),
-                None => self.light_of(part, world, normal, dark, open),
+                None => self.light_of((part, group.evened), (world, normal), dark, open),
             };
             sum.light = std::array::from_fn(|k| sum.light[k] + light[k] / count);
             sum.line += self.grazing(part, corners, px) / count;
@@ -381,13 +407,12 @@ impl Layers<'_> {
         ink_over(part, range.map(|x| x.min(most)))
     }
 
-    /// Light on a surface at `world` with the normal `normal`, in the shadow of the lights in `dark`, that sees `open`
-    /// of the sky.
+    /// Light on a surface at a place with a normal, in the shadow of the lights in `dark`, that sees `open` of the sky;
+    /// by its part's ramp, or by the light of it that was evened.
     fn light_of(
         &self,
-        part: &Part,
-        world: [f32; 3],
-        normal: [f32; 3],
+        (part, evened): (&Part, Option<[f32; 3]>),
+        (world, normal): ([f32; 3], [f32; 3]),
         dark: u32,
         open: Openness,
     ) -> [f32; 3] {
@@ -395,7 +420,7 @@ impl Layers<'_> {
             return [1.0; 3];
         }
         let (x, color) = self.lights.coordinate_under(world, normal, dark, open);
-        let light = self.ramp_of(part, x);
+        let light = evened.unwrap_or_else(|| self.ramp_of(part, x));
         std::array::from_fn(|i| light[i] * color[i])
     }
 
@@ -467,7 +492,7 @@ mod tests {
             if let Some(light) = layers.even_light(&part, &corners) {
                 let sum: f32 = weights.iter().sum();
                 let normal = corners.normal(weights.map(|w| w / sum));
-                let inside = layers.light_of(&part, [0.0; 3], normal, 0, Openness::FULL);
+                let inside = layers.light_of((&part, None), ([0.0; 3], normal), 0, Openness::FULL);
                 prop_assert_eq!(light, inside);
             }
         }

@@ -92,6 +92,15 @@ impl TriangleConstants {
         self.bits |= if is_so { bit } else { 0 };
     }
 
+    /// What is left where the light is another than was found.
+    #[must_use]
+    pub fn without_light(self) -> Self {
+        Self {
+            bits: self.bits & !(Self::PLAIN | Self::EVEN | Self::WHOLE),
+            ..self
+        }
+    }
+
     fn has(&self, bit: u32) -> bool {
         self.bits & bit != 0
     }

@@ -153,14 +153,62 @@ fn a_pattern_in_a_rule_takes_the_place_of_the_picture() {
 
 /// Pieces of equal colour that lie together in a picture.
 fn patches(frame: &Frame) -> usize {
-    let colors: BTreeSet<&[u8]> = frame.rgba.chunks_exact(4).collect();
+    patches_of(frame, frame)
+}
+
+/// The same for the colours of another picture.
+fn patches_of(frame: &Frame, other: &Frame) -> usize {
+    let colors: BTreeSet<&[u8]> = other.rgba.chunks_exact(4).collect();
     let pieces = |color: &[u8]| Ink::of_color(frame, color).components().len();
     colors.into_iter().map(pieces).sum()
 }
 
 #[test]
 fn the_grain_of_a_scan_does_not_show_in_the_edges_of_tones() {
-    // A ball whose normals are those of a scan: each a little aside.
+    // Without lines and grey edges, each patch is a tone, the background, or a speck of grain.
+    let scene = scanned_ball();
+    let drawn = |calm: &str| {
+        let settings = ["line.method=none", "antialias.samples=1", calm];
+        patches(&draw_from(&scene, &toon(&settings), &front(), SIZE).frame)
+    };
+    let [grainy, calm] = ["shade.calm=0", "shade.calm=0.1"].map(drawn);
+    assert!(grainy > 4 * calm, "{grainy} {calm}");
+}
+
+#[test]
+fn tones_have_no_pieces_narrower_than_the_least() {
+    // Grain makes many; with the key they are gone, and what is left is what a calm surface shows.
+    let scene = scanned_ball();
+    let drawn = |least: &str| {
+        let settings = [
+            "line.method=none",
+            "antialias.samples=1",
+            "shade.calm=0",
+            least,
+        ];
+        draw_from(&scene, &toon(&settings), &front(), SIZE).frame
+    };
+    let [grainy, some, even] =
+        ["shade.least=0", "shade.least='1px'", "shade.least='4px'"].map(drawn);
+    let counts = [&grainy, &some, &even].map(|frame| patches_of(frame, &grainy));
+    assert!(counts[0] > counts[1] && counts[1] > counts[2], "{counts:?}");
+
+    // The masses stay: few pixels have another colour.
+    let agreement = Agreement::between(&grainy, &even, 2);
+    assert!(agreement.within > 0.9, "{agreement}");
+}
+
+/// The preset `toon` with settings.
+fn toon(settings: &[&str]) -> Style {
+    let mut style = Style::preset("toon").unwrap();
+    for setting in settings {
+        style.set(setting).unwrap();
+    }
+    style
+}
+
+/// A ball whose normals are those of a scan: each a little aside.
+fn scanned_ball() -> Scene {
     let mut scene = scene_of(&[Object::new("Ball", icosphere(5))]);
     let part = &mut scene.meshes[0].parts[0];
     let mut random = Random::new(20_031);
@@ -170,15 +218,5 @@ fn the_grain_of_a_scan_does_not_show_in_the_edges_of_tones() {
         shaken.normalize().to_array()
     });
     part.normals = Some(normals.collect());
-
-    // Without lines and grey edges, each patch is a tone, the background, or a speck of grain.
-    let drawn = |calm: &str| {
-        let mut style = Style::preset("toon").unwrap();
-        for setting in ["line.method=none", "antialias.samples=1", calm] {
-            style.set(setting).unwrap();
-        }
-        patches(&draw_from(&scene, &style, &front(), SIZE).frame)
-    };
-    let [grainy, calm] = ["shade.calm=0", "shade.calm=0.1"].map(drawn);
-    assert!(grainy > 4 * calm, "{grainy} {calm}");
+    scene
 }

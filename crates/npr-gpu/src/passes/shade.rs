@@ -8,6 +8,7 @@ use npr_core::outline::Outline;
 use npr_core::window::{View, Window};
 use npr_style::backdrop::Rules;
 use npr_style::compose::{Compose, Layers, TriangleConstants, compose, fill, know_triangles};
+use npr_style::even_tones::{ToneMap, even_tones, find_tones, flag_tones};
 use npr_style::lighting::Lights;
 use npr_style::picture_depth::{PictureDepths, find_depths};
 
@@ -46,6 +47,98 @@ pub const KNOW_TRIANGLES: Pass = Pass {
     },
 };
 
+/// The tone of every pixel whose part has hard steps between tones.
+pub const FIND_TONES: Pass = Pass {
+    name: "shade.find_tones",
+    shader: npr_shaders::SHADE_FIND_TONES,
+    slots: &[
+        uniform::<View>("view"),
+        uniform::<Window>("window"),
+        uniform::<Compose>("compose"),
+        uniform::<Lights>("lights"),
+        texture("ids", Format::U32),
+        read::<PosedVertex>("posed"),
+        read::<Vertex>("vertices"),
+        read::<TriangleConstants>("triangles"),
+        read::<Part>("parts"),
+        read::<u32>("texels"),
+        layered("shadows", Format::U32).serving(Features::SHADOWS),
+        layered("smoke_shadows", Format::Depth).serving(Features::SMOKE_SHADOWS),
+        write::<u32>("tone_map"),
+        read::<Triangle>("surfaces").for_twin(),
+    ],
+    work: Work::PerElement { of: "tone_map" },
+    agreement: Agreement::Texels(0.001),
+    twin: |b| {
+        let (view, window, settings, lights) = (b.one(0), b.one(1), b.one(2), b.one(3));
+        let rules = Rules::default();
+        let layers = Layers {
+            ids: b.image(4).texels,
+            posed: b.read(5),
+            vertices: b.read(6),
+            known: b.read(7),
+            parts: b.read(8),
+            texels: b.read(9),
+            shadows: b.layers(10),
+            smoke_shadows: b.layers(11),
+            triangles: b.read(13),
+            ..Layers::empty(&view, &window, &settings, &lights, &rules)
+        };
+        find_tones(&layers, b.write(12));
+    },
+};
+
+/// The tiles of the picture in which tones may change.
+pub const FLAG_TONES: Pass = Pass {
+    name: "shade.flag_tones",
+    shader: npr_shaders::SHADE_FLAG_TONES,
+    slots: &[
+        uniform::<Window>("window"),
+        read::<Part>("parts"),
+        read::<u32>("tone_map"),
+    ],
+    work: Work::Draw {
+        of: "window",
+        fills: true,
+        vertices: 3,
+        targets: &[Format::U32],
+    },
+    agreement: Agreement::Exact,
+    twin: |b| {
+        let window: Window = b.one(0);
+        let map = ToneMap {
+            size: window.size,
+            parts: b.read(1),
+            words: b.read(2),
+        };
+        flag_tones(&map, b.image_mut(3).texels);
+    },
+};
+
+/// The median of the tones of a part round every pixel.
+pub const EVEN_TONES: Pass = Pass {
+    name: "shade.even_tones",
+    shader: npr_shaders::SHADE_EVEN_TONES,
+    slots: &[
+        uniform::<Window>("window"),
+        read::<Part>("parts"),
+        read::<u32>("tone_map"),
+        texture("tone_flags", Format::U32),
+        write::<u32>("evened"),
+    ],
+    work: Work::PerElement { of: "evened" },
+    agreement: Agreement::Texels(0.001),
+    twin: |b| {
+        let window: Window = b.one(0);
+        let map = ToneMap {
+            size: window.size,
+            parts: b.read(1),
+            words: b.read(2),
+        };
+        even_tones(&map, b.image(3).texels, b.write(4));
+    },
+};
+
 /// Pixels of one known colour, and a list of the others.
 pub const FILL_FRAME: Pass = Pass {
     name: "shade.fill_frame",
@@ -61,6 +154,8 @@ pub const FILL_FRAME: Pass = Pass {
         read::<TriangleConstants>("known"),
         update::<u32>("frame"),
         append("list"),
+        read::<Part>("parts").serving(Features::EVEN_TONES),
+        read::<u32>("evened").serving(Features::EVEN_TONES),
     ],
     work: Work::PerElement { of: "frame" },
     agreement: Agreement::Exact,
@@ -74,6 +169,8 @@ pub const FILL_FRAME: Pass = Pass {
             smoke_depths: b.image(5).texels,
             fronts: b.image(6).texels,
             known: b.read(7),
+            parts: b.read(10),
+            evened: b.read(11),
             ..Layers::empty(&view, &window, &settings, &lights, &rules)
         };
         fill(&layers, b.write(8), b.write(9));
@@ -108,6 +205,7 @@ pub const COMPOSE_FRAME: Pass = Pass {
         uniform::<Rules>("rules").serving(Features::BACKDROP),
         texture("fronts", Format::Rgba8).serving(Features::BACKDROP),
         texture("backs", Format::Rgba8).serving(Features::BACKDROP),
+        read::<u32>("evened").serving(Features::EVEN_TONES),
         read::<Triangle>("surfaces").for_twin(),
     ],
     work: Work::PerListed { of: "list" },
@@ -125,7 +223,7 @@ pub const COMPOSE_FRAME: Pass = Pass {
             ribbons: b.image(6).texels,
             posed: b.read(7),
             vertices: b.read(8),
-            triangles: b.read(22),
+            triangles: b.read(23),
             known: b.read(9),
             parts: b.read(10),
             texels: b.read(11),
@@ -137,6 +235,7 @@ pub const COMPOSE_FRAME: Pass = Pass {
             rules: &rules,
             fronts: b.image(20).texels,
             backs: b.image(21).texels,
+            evened: b.read(22),
         };
         compose(&layers, b.read(13), b.write(14));
     },

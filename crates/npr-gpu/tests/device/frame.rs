@@ -16,16 +16,19 @@ use npr_gpu::passes::{backdrop, line, mesh, raster, shade, smoke, stroke};
 use npr_gpu::processor::Processor;
 use npr_style::backdrop::{ContrastBias, TILE, TileRims};
 use npr_style::compose::TriangleConstants;
+use npr_style::even_tones::tiles_of;
 use npr_vector::ink_point::InkPoint;
 use npr_vector::sampled::PartWidths;
 use std::collections::BTreeMap;
 
 /// Slots that bind a resource of another name: two passes work on the grid of the mask only and call it the window.
-const RENAMED: [(&str, &str, &str); 26] = [
+const RENAMED: [(&str, &str, &str); 28] = [
     ("stroke.see_samples", "window", "sample_window"),
     ("stroke.ink_samples", "points", "sampled_points"),
     ("shade.compose_frame", "triangles", "known"),
     ("shade.compose_frame", "surfaces", "triangles"),
+    ("shade.find_tones", "triangles", "known"),
+    ("shade.find_tones", "surfaces", "triangles"),
     ("backdrop.flag_tiles", "window", "tile_window"),
     ("backdrop.flag_tiles", "output_window", "window"),
     ("backdrop.flag_tiles", "ids", "bare_ids"),
@@ -82,7 +85,7 @@ pub struct Frame {
 
 impl Frame {
     /// The names of what passes make.
-    pub const MADE: [&str; 61] = [
+    pub const MADE: [&str; 64] = [
         "gaps",
         "verdicts",
         "clear",
@@ -129,6 +132,9 @@ impl Frame {
         "covered",
         "overlay",
         "known",
+        "tone_map",
+        "tone_flags",
+        "evened",
         "busy",
         "bare",
         "rims",
@@ -190,7 +196,10 @@ impl Frame {
     pub fn target_size(&self, pass: &Pass) -> [u32; 2] {
         let words = &self.content(pass, "window").words;
         let window: Window = bytemuck::pod_read_unaligned(bytemuck::cast_slice(words));
-        window.size
+        match pass.name == shade::FLAG_TONES.name {
+            true => tiles_of(window.size),
+            false => window.size,
+        }
     }
 }
 
@@ -245,6 +254,9 @@ impl Builder {
         self.make_layers("shadows", Format::U32, [SHADOW_SIDE; 2], SHADOWS);
         self.make_layers("surface_depths", Format::Depth, [SHADOW_SIDE; 2], SHADOWS);
         self.give_smoke(look, size);
+        self.make_buffer("tone_map", 4, area(size));
+        self.make_buffer("evened", 4, area(size));
+        self.make_image("tone_flags", Format::U32, tiles_of(size));
         self.make_buffer("hull", 16, scene.vertices.len());
         self.make_buffer("roles", size_of::<EdgeRole>(), scene.edges.len());
         self.make_image("ids", Format::U32, size.map(|side| side * samples));
@@ -406,6 +418,11 @@ impl Builder {
             }
         }
         self.compute(&shade::KNOW_TRIANGLES);
+        self.compute(&shade::FIND_TONES);
+        let flag = self.bound(&shade::FLAG_TONES, "window");
+        let flags = [self.ids["tone_flags"]];
+        self.graph.draw(&shade::FLAG_TONES, &flag, &flags, true);
+        self.compute(&shade::EVEN_TONES);
         self.line_up_backdrop();
         self.compute(&shade::FILL_FRAME);
         self.compute(&shade::COMPOSE_FRAME);

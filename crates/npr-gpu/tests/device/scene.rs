@@ -259,6 +259,7 @@ fn part(object: u32, flags: u32, texture: u32) -> Part {
         hatch_gain: 1.2,
         hatch_grain: 0.7,
         spots_per_px: 0.4,
+        tone_reach_px: 2.5 * (object % 2) as f32,
         second_from: 0.4,
         tile_scale: 0.5,
         turn: [0.8, 0.6],

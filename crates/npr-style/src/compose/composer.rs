@@ -142,7 +142,9 @@ impl<'a> Composer<'a> {
         if id & HULL_BIT != 0 {
             return None;
         }
-        let [r, g, b] = self.layers.known[(id - 1) as usize].whole()?;
+        let [r, g, b] = self
+            .layers
+            .whole_color(&self.layers.known[(id - 1) as usize])?;
         Some([r, g, b, 1.0])
     }
 
@@ -221,7 +223,7 @@ impl<'a> Composer<'a> {
 
         // Shade a triangle, unless its colour is known.
         let known = &self.layers.known[index];
-        if let Some(color) = known.whole() {
+        if let Some(color) = self.layers.whole_color(known) {
             return color;
         }
         let corners = self.corners(id);
@@ -328,7 +330,7 @@ impl Layers<'_> {
         let first = self.texel_of(seen[0])?;
         let mut others = seen[1..].iter();
         let is_one = others.all(|id| *id == seen[0] || self.texel_of(*id) == Some(first));
-        is_one.then_some(first)
+        (is_one && self.is_settled(x, y, &seen)).then_some(first)
     }
 
     /// The colour of triangle `id`, or of the background for 0, if it is known and the same all over.

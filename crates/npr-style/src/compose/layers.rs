@@ -38,6 +38,8 @@ pub struct Layers<'a> {
     pub parts: &'a [Part],
     /// The texture store.
     pub texels: &'a [u32],
+    /// Evened tone of every pixel, see [`even_tones`](crate::even_tones::even_tones); not read without such parts.
+    pub evened: &'a [u32],
     /// Stroke charts, one for each triangle; may be shorter if no part uses them.
     pub charts: &'a [ChartCorners],
     /// What is known of the triangles, see [`know_triangles`](super::know_triangles).
@@ -97,6 +99,7 @@ impl<'a> Layers<'a> {
             triangles: &[],
             parts: &[],
             texels: &[],
+            evened: &[],
             charts: &[],
             known: &[],
             shadows: [&[]; SHADOWS_MAX],

@@ -103,6 +103,7 @@ pub(super) const ENTRIES: &[Entry] = &[
             "shade.ramp_image",
             "shade.softness",
             "shade.calm",
+            "shade.least",
             "ink",
             "antialias",
             "use_scene_hints",

@@ -14,14 +14,29 @@ pub(super) const ENTRIES: &[Entry] = &[
         "shade.mode is not paper",
     ),
     entry(
-        &["shade.ramp", "shade.ramp_image", "shade.softness"],
+        &[
+            "shade.ramp",
+            "shade.ramp_image",
+            "shade.softness",
+            "shade.least",
+        ],
         |c| c.style.shade.mode == ShadeMode::Flat,
         "shade.mode is flat",
+    ),
+    entry(
+        &["shade.least"],
+        |c| c.style.shade.softness > 0.0,
+        "shade.softness is above 0",
     ),
     entry(
         &["shade.ramp"],
         |c| !c.any(|look| look.ramp_image.is_empty()),
         "shade.ramp_image is in its place",
+    ),
+    entry(
+        &["shade.least"],
+        |c| !c.any(|look| look.ramp_image.is_empty() && look.ramp.len() > 1),
+        "no part has steps of shade.ramp",
     ),
     entry(
         &[

@@ -1,0 +1,72 @@
+// Tones of hard ramps without slivers, as the last passes show them. Twin: npr_style::even_tones.
+// The shader declares `window`, `parts` and `evened`.
+
+//# use lib/tone_word
+
+// Whether the tones of a part are evened.
+fn is_evened(part: u32) -> bool {
+    return parts[part].tone_reach_px > 0.0;
+}
+
+// Evened tones of a part in and around a pixel.
+struct Around {
+    // The darkest and the brightest tone that a pixel has most of.
+    least: u32,
+    most: u32,
+    // Whether one of them is changed.
+    is_changed: bool,
+    // Whether the pixel itself shows the part, and its steps.
+    is_own: bool,
+    own: u32,
+    // The sum of all steps, and the number of pixels.
+    sum: u32,
+    count: u32,
+}
+
+fn evened_around(pixel: vec2<u32>, part: u32) -> Around {
+    var around: Around;
+    around.least = TONES;
+    let low = max(pixel, vec2<u32>(1u)) - 1u;
+    let high = min(pixel + 2u, window.size);
+    for (var y = low.y; y < high.y; y++) {
+        for (var x = low.x; x < high.x; x++) {
+            let word = evened[y * window.size.x + x];
+            if (word & ~(2u * CHANGED - 1u)) != tag_of(part) { continue; }
+            let steps = word & (CHANGED - 1u);
+            around.least = min(around.least, median_of(word));
+            around.most = max(around.most, median_of(word));
+            around.is_changed = around.is_changed || (word & CHANGED) != 0u;
+            around.sum += steps;
+            around.count += 1u;
+            if all(vec2<u32>(x, y) == pixel) {
+                around.is_own = true;
+                around.own = steps;
+            }
+        }
+    }
+    return around;
+}
+
+// Light of a part from its ramp at a pixel, where its tone is evened.
+struct Evened {
+    is_so: bool,
+    light: vec3<f32>,
+}
+
+fn evened_light(part: u32, frame_px: vec2<f32>) -> Evened {
+    // Take the tone that all around have, or the edge that was blended.
+    var light: Evened;
+    if !is_evened(part) { return light; }
+    let around = evened_around(pixel_at(window, frame_px), part);
+    var steps = around.sum / max(around.count, 1u);
+    if around.is_own { steps = around.own; }
+    if around.least == around.most { steps = around.least * STEP_PARTS; }
+    light.is_so = around.least == around.most || around.is_changed;
+
+    // Blend the tones before and behind the step.
+    let whole = min(steps / STEP_PARTS, TONES - 2u);
+    let share = f32(steps - whole * STEP_PARTS) / f32(STEP_PARTS);
+    let before = parts[part].ramp[whole].rgb;
+    light.light = before + (parts[part].ramp[whole + 1u].rgb - before) * share;
+    return light;
+}

@@ -1,0 +1,34 @@
+// Words of the tone map and of the evened map. Twin: npr_style::even_tones.
+
+// Bits of the tone in a word of the tone map; the number of the part plus one lies above them.
+const TONE_BITS: u32 = 3u;
+
+// The tones of a ramp.
+const TONES: u32 = 8u;
+
+// Pixels of each side of a tile that is looked at as a whole.
+const TONE_TILE: u32 = 8u;
+
+// Parts of a step between two tones in a word of the evened map.
+const STEP_PARTS: u32 = 256u;
+
+// Bits of the steps in a word of the evened map.
+const STEP_BITS: u32 = 11u;
+
+// The bit of a changed tone above them; the number of the part plus one, as far as it has room, lies above that.
+const CHANGED: u32 = 2048u;
+
+// Pixels to each side that tones are looked at.
+fn far_px(reach_px: f32) -> u32 {
+    return u32(ceil(reach_px + 0.5));
+}
+
+// The part in a word of the evened map.
+fn tag_of(part: u32) -> u32 {
+    return (part + 1u) << (STEP_BITS + 1u);
+}
+
+// The tone that a word of the evened map has most of, in steps.
+fn median_of(word: u32) -> u32 {
+    return ((word & (CHANGED - 1u)) + STEP_PARTS / 2u) / STEP_PARTS;
+}

@@ -1,0 +1,71 @@
+// shade.even_tones: the median of the tones of a part over a disc round every pixel.
+//
+// Source  Merriman, Bence & Osher 1992, for edges that are blurred and cut
+// Twin    npr_style::even_tones::even_tones
+//
+//# use lib/grid
+//# use lib/geometry
+//# use lib/window
+
+@group(0) @binding(0) var<uniform> window: Window;
+@group(0) @binding(1) var<storage, read> parts: array<Part>;
+@group(0) @binding(2) var<storage, read> tone_map: array<u32>;
+@group(0) @binding(3) var tone_flags: texture_2d<u32>;
+@group(0) @binding(4) var<storage, read_write> evened: array<u32>;
+
+//# use lib/tone_word
+
+// Half of pi: pixels over which the share of a disc on one side of a line goes from none to all, in radii.
+const EDGE_OF_RADIUS: f32 = 1.57;
+
+// Word of the evened map of a pixel.
+fn evened_word(pixel: vec2<u32>, word: u32) -> u32 {
+    // Keep the tone where all around are alike.
+    if word == 0u { return 0u; }
+    let part = (word >> TONE_BITS) - 1u;
+    let tone = word & (TONES - 1u);
+    if textureLoad(tone_flags, pixel / TONE_TILE, 0).x == 0u { return tag_of(part) | (tone * STEP_PARTS); }
+
+    // Weigh the tones of the part around it.
+    let reach_px = parts[part].tone_reach_px;
+    var weights: array<f32, 8>;
+    var sum = 0.0;
+    let far = far_px(reach_px);
+    let most = (reach_px + 0.5) * (reach_px + 0.5);
+    let low = max(pixel, vec2<u32>(far)) - far;
+    let high = min(pixel + far + 1u, window.size);
+    for (var y = low.y; y < high.y; y++) {
+        for (var x = low.x; x < high.x; x++) {
+            let away = vec2<f32>(vec2<u32>(x, y)) - vec2<f32>(pixel);
+            let square = away.x * away.x + away.y * away.y;
+            let other = tone_map[y * window.size.x + x];
+            if square > most || other >> TONE_BITS != part + 1u { continue; }
+            let weight = min(reach_px + 0.5 - sqrt(square), 1.0);
+            weights[other & (TONES - 1u)] += weight;
+            sum += weight;
+        }
+    }
+
+    // Sum the steps that most of them have passed, the last one in part.
+    let per_px = EDGE_OF_RADIUS * reach_px;
+    var passed = 0.0;
+    var above = 0.0;
+    for (var i = TONES - 1u; i > 0u; i--) {
+        above += weights[i];
+        passed += clamp((above / sum - 0.5) * per_px + 0.5, 0.0, 1.0);
+    }
+    let steps = u32(passed * f32(STEP_PARTS) + 0.5);
+    return tag_of(part) | select(CHANGED, 0u, median_of(steps) == tone) | steps;
+}
+
+// One invocation per output pixel.
+@compute @workgroup_size(WG)
+fn main(
+    @builtin(workgroup_id) wid: vec3<u32>,
+    @builtin(num_workgroups) nwg: vec3<u32>,
+    @builtin(local_invocation_id) lid: vec3<u32>,
+) {
+    let element = element_index(wid, nwg, lid, WG);
+    if element >= arrayLength(&evened) { return; }
+    evened[element] = evened_word(pixel_of(element, window.size), tone_map[element]);
+}

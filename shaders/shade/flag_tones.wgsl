@@ -1,0 +1,58 @@
+// shade.flag_tones: 1 for every tile of pixels around which a part may show more than one tone.
+//
+// Twin    npr_style::even_tones::flag_tones
+//
+//# use lib/geometry
+
+@group(0) @binding(0) var<uniform> window: Window;
+@group(0) @binding(1) var<storage, read> parts: array<Part>;
+@group(0) @binding(2) var<storage, read> tone_map: array<u32>;
+
+//# use lib/window
+//# use lib/tone_word
+
+// The first tone in a tile; 0 if there is none.
+fn first_tone(start: vec2<u32>, end: vec2<u32>) -> u32 {
+    for (var y = start.y; y < end.y; y++) {
+        for (var x = start.x; x < end.x; x++) {
+            let word = tone_map[y * window.size.x + x];
+            if word != 0u { return word; }
+        }
+    }
+    return 0u;
+}
+
+// Whether tones within reach of a tile may change.
+fn has_steps_around(tile: vec2<u32>) -> bool {
+    // Find how far the parts of the tile reach.
+    let start = tile * TONE_TILE;
+    let end = min(start + TONE_TILE, window.size);
+    let first = first_tone(start, end);
+    if first == 0u { return false; }
+    let far = far_px(parts[(first >> TONE_BITS) - 1u].tone_reach_px);
+    let low = max(start, vec2<u32>(far)) - far;
+    let high = min(end + far, window.size);
+
+    // Look for a third word, or a second of one part.
+    var other = 0u;
+    for (var y = low.y; y < high.y; y++) {
+        for (var x = low.x; x < high.x; x++) {
+            let word = tone_map[y * window.size.x + x];
+            if word == 0u || word == first || word == other { continue; }
+            if other != 0u || word >> TONE_BITS == first >> TONE_BITS { return true; }
+            other = word;
+        }
+    }
+    return false;
+}
+
+@vertex
+fn vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4<f32> {
+    let corner = vec2<f32>(f32(index & 1u), f32(index >> 1u)) * 4.0 - 1.0;
+    return vec4<f32>(corner, 0.0, 1.0);
+}
+
+@fragment
+fn fragment(@builtin(position) at: vec4<f32>) -> @location(0) u32 {
+    return select(0u, 1u, has_steps_around(vec2<u32>(at.xy)));
+}
