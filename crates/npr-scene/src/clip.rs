@@ -3,12 +3,9 @@
 //! A [`Clip`] is a glTF animation: channels, each of which replaces one [`Property`] of one node by a curve through
 //! keys [glTF 2.0, section 3.11 and appendix C]. Before its first key and after its last a curve stands still.
 
+use crate::quaternion::shares_on_arc;
 use crate::transform::Transform;
-use npr_core::math;
 use std::sync::Arc;
-
-/// Cosine of the angle between two keys of a rotation from which the way between them is as good as straight.
-const STRAIGHT_COS: f32 = 0.9995;
 
 /// A movement of the nodes of a scene.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -150,7 +147,7 @@ impl Channel {
 
     fn straight(&self, from: &[f32], to: &[f32], share: f32) -> Vec<f32> {
         let [a, b] = match self.property {
-            Property::Rotation => turn_shares(from, to, share),
+            Property::Rotation => shares_on_arc(from, to, share),
             _ => [1.0 - share, share],
         };
         from.iter()
@@ -211,30 +208,6 @@ fn put<const N: usize>(numbers: &mut [f32; N], value: &[f32]) {
     if let Ok(value) = <[f32; N]>::try_from(value) {
         *numbers = value;
     }
-}
-
-/// What of two turns makes the one that lies at a share of the shorter arc between them [Shoemake 1985].
-///
-/// Turns that nearly agree are blended in a straight line, which differs from the arc by less than 1e-8 there.
-fn turn_shares(from: &[f32], to: &[f32], share: f32) -> [f32; 2] {
-    // Take both as if they were of unit length.
-    let lengths = [from, to].map(|q| q.iter().map(|v| v * v).sum::<f32>().sqrt());
-    let [one, other] = lengths.map(|length| if length > 0.0 { 1.0 / length } else { 0.0 });
-    let cos = from.iter().zip(to).map(|(a, b)| a * b).sum::<f32>() * one * other;
-
-    // Turn the second one over where that is nearer.
-    let (cos, other) = if cos < 0.0 {
-        (-cos, -other)
-    } else {
-        (cos, other)
-    };
-    if cos > STRAIGHT_COS {
-        return [(1.0 - share) * one, share * other];
-    }
-    let angle = math::acos(cos);
-    let sin = math::sin(angle);
-    let [a, b] = [1.0 - share, share].map(|part| math::sin(part * angle) / sin);
-    [a * one, b * other]
 }
 
 /// Makes a vector unit length; one without length, or of infinite length, becomes the turn that turns nothing.

@@ -6,6 +6,7 @@
 pub(crate) mod accessor;
 pub(crate) mod buffers;
 pub(crate) mod clip;
+pub(crate) mod constraint;
 pub(crate) mod container;
 pub(crate) mod document;
 pub(crate) mod error;
@@ -69,6 +70,7 @@ fn read_document(
         ..Scene::default()
     };
     scene.clips = clip::read(&accessors, &tree, &scene.nodes, loading)?;
+    scene.constraints = constraint::read(&root, &tree, &scene.nodes, loading)?;
     scene.figure = figure::read(&root, &tree, &scene.nodes, loading)?;
     mesh::read(&accessors, &tree, &mut scene, loading)?;
     skin::read(&accessors, &tree, &mut scene, loading)?;

@@ -47,6 +47,12 @@ impl Default for Node {
 }
 
 impl Node {
+    /// Parent space from node space where a pose has it stand so, or where it rests; one with a matrix stays.
+    pub(crate) fn local_in(&self, posed: Option<&Transform>) -> Matrix {
+        let rest = self.rest.as_ref();
+        rest.map_or(self.local, |rest| posed.unwrap_or(rest).matrix())
+    }
+
     /// A root at the origin with one mesh.
     pub(crate) fn holding(mesh: u32, name: &str) -> Self {
         Self {

@@ -12,6 +12,7 @@ use crate::reach;
 use crate::scene::Scene;
 use crate::shown::shown;
 use crate::transform::Transform;
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 /// How a scene stands where it does not rest.
@@ -70,7 +71,7 @@ impl Scene {
         pose
     }
 
-    /// Puts the scene into a pose; what the pose does not name rests. The same pose gives the same scene, bit for bit,
+    /// Puts the scene into a pose; what the pose does not name rests, or follows what it is constrained to. The same pose gives the same scene, bit for bit,
     /// whatever pose it had before.
     ///
     /// O(nodes + vertices of meshes with other morph weights x morphs + vertices).
@@ -80,6 +81,7 @@ impl Scene {
     /// [`PoseError`] where something would stand beyond [`POSITION_LIMIT`](crate::POSITION_LIMIT); the scene then
     /// stays as it is.
     pub fn set_pose(&mut self, pose: &Pose) -> Result<(), PoseError> {
+        let pose = &self.followed(pose);
         let mut morphs = self.morphs_of(pose)?;
         let before: Vec<[Matrix; 2]> = self
             .nodes
@@ -98,6 +100,15 @@ impl Scene {
             (node.local, node.world_from_node) = (local, world);
         }
         Err(PoseError::OutOfRange { node })
+    }
+
+    /// A pose with what follows from it: the turns that constraints give.
+    fn followed<'a>(&self, pose: &'a Pose) -> Cow<'a, Pose> {
+        let mut pose = Cow::Borrowed(pose);
+        if !self.constraints.is_empty() {
+            self.constrain(pose.to_mut());
+        }
+        pose
     }
 
     /// The vertices of all parts whose morphs get other weights.
@@ -158,11 +169,7 @@ impl Scene {
         for index in 0..self.nodes.len() {
             // Find its place beside its parent.
             let node = &self.nodes[index];
-            let posed = pose.transforms.get(&(index as u32)).copied();
-            let local = match node.rest {
-                Some(rest) => posed.unwrap_or(rest).matrix(),
-                None => node.local,
-            };
+            let local = node.local_in(pose.transforms.get(&(index as u32)));
 
             // Carry it with its parent.
             let parent = node.parent.map(|parent| parent as usize);

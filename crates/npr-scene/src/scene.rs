@@ -2,6 +2,7 @@
 
 use crate::camera::Camera;
 use crate::clip::{Clip, Property};
+use crate::constraint::Constraint;
 use crate::figure::Figure;
 use crate::image::Image;
 use crate::light::Light;
@@ -10,6 +11,7 @@ use crate::mesh::{Mesh, POSITION_LIMIT, Part};
 use crate::node::Node;
 use crate::notice::Notice;
 use crate::skin::Skin;
+use std::collections::BTreeSet;
 
 /// Everything of a file that can be drawn.
 ///
@@ -37,6 +39,8 @@ pub struct Scene {
     pub skins: Vec<Skin>,
     /// Movements of nodes, in the order of the file.
     pub clips: Vec<Clip>,
+    /// Nodes that follow others, each behind those that it depends on; no node has two.
+    pub constraints: Vec<Constraint>,
     /// What VRM says of the avatar, or of the motion; none where the file is no VRM.
     pub figure: Option<Figure>,
     /// What was ignored or mended, each thing once.
@@ -160,9 +164,21 @@ impl Scene {
             };
             assert_in(Some(channel.node), count, "what a channel moves");
         }
+        self.check_constraints();
         self.figure
             .iter()
             .for_each(|figure| self.check_figure(figure));
+    }
+
+    fn check_constraints(&self) {
+        let mut nodes = BTreeSet::new();
+        for constraint in &self.constraints {
+            for node in [constraint.node, constraint.source] {
+                assert_in(Some(node), self.nodes.len(), "node of a constraint");
+            }
+            assert!(nodes.insert(constraint.node), "one constraint a node");
+            assert!((0.0..=1.0).contains(&constraint.weight), "a weight");
+        }
     }
 
     fn check_figure(&self, figure: &Figure) {

@@ -1,8 +1,10 @@
 //! Small valid files and scenes made in memory, for tests, fuzzing and benches.
 
 mod figures;
+mod puppets;
 
 pub use figures::{BODY_BONES, Vrm, avatar, gesture, humanoid, node_of};
+pub use puppets::{Eyes, puppet};
 
 use crate::matrix;
 use crate::{

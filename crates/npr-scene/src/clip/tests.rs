@@ -1,4 +1,5 @@
 use super::*;
+use npr_core::math;
 use proptest::prelude::*;
 
 fn channel(

@@ -6,7 +6,7 @@ use crate::quaternion::{self, NO_TURN, Quaternion};
 use crate::{Bone, Node, Scene, Transform};
 
 /// The bones of the humanoid: each with the one that it hangs on and how far from it, for one that looks along +Z.
-const BODY: [(&str, Option<usize>, [f32; 3]); 15] = [
+pub(super) const BODY: [(&str, Option<usize>, [f32; 3]); 15] = [
     ("hips", None, [0.0, 1.0, 0.05]),
     ("spine", Some(0), [0.0, 0.1, 0.0]),
     ("head", Some(1), [0.0, 0.5, 0.0]),

@@ -35,7 +35,7 @@ fn number(value: &Value) -> f64 {
 }
 
 /// The JSON text and the bytes behind it.
-fn parts(file: &[u8]) -> (String, Vec<u8>) {
+pub fn parts(file: &[u8]) -> (String, Vec<u8>) {
     let length = u32::from_le_bytes(file[12..16].try_into().expect("4 bytes")) as usize;
     let text = String::from_utf8(file[20..20 + length].to_vec()).expect("text");
     let rest = file.get(28 + length..).unwrap_or_default();

@@ -8,6 +8,7 @@ mod malformed;
 mod models;
 mod mutants;
 mod poses;
+mod puppets;
 mod text_formats;
 mod tolerated;
 mod toons;

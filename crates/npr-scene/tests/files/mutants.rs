@@ -1,7 +1,8 @@
 //! Damaged files never panic, and what still loads is sound.
 
 use npr_scene::testing::{
-    Sheet, Vrm, avatar, gesture, lines_glb, skinned_glb, skinned_lines_glb, sparse_glb, wing,
+    Eyes, Sheet, Vrm, avatar, gesture, lines_glb, puppet, skinned_glb, skinned_lines_glb,
+    sparse_glb, wing,
 };
 use npr_scene::{Bone, Format, Limits, MemoryResources, Pose, Posture, Scene, load_bytes};
 use proptest::prelude::*;
@@ -134,6 +135,8 @@ proptest! {
         survives(avatar(Vrm::Zero), Format::Glb, &damages);
         survives(avatar(Vrm::One), Format::Glb, &damages);
         survives(gesture(), Format::Glb, &damages);
+        survives(puppet(Vrm::Zero, Eyes::Expressions), Format::Glb, &damages);
+        survives(puppet(Vrm::One, Eyes::Bones), Format::Glb, &damages);
     }
 
     #[test]
