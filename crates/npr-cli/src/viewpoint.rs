@@ -3,7 +3,8 @@
 use crate::arguments::{CameraArguments, Size};
 use crate::fault::{Exit, Fault};
 use crate::message;
-use npr_core::camera::{Camera, DEFAULT_FOV_DEG};
+use npr_core::camera::{Camera, DEFAULT_FOV_DEG, Projection, THREE_QUARTERS};
+use npr_core::standard_view::StandardView;
 use npr_render::{LineModel, Model, Smoke};
 use std::borrow::Cow;
 
@@ -20,6 +21,8 @@ pub trait Viewed {
     fn framing(&self, aspect: f32, fov_y: f32) -> Camera;
     /// The same of all that it sweeps where the camera turns about an axis, given by a point on it and its direction.
     fn framing_around(&self, axis: [[f32; 3]; 2], view: (f32, f32)) -> Camera;
+    /// Places where something is seen, for views from other sides.
+    fn places(&self) -> Vec<[f32; 3]>;
 }
 
 impl Viewed for LineModel {
@@ -37,6 +40,10 @@ impl Viewed for LineModel {
 
     fn framing_around(&self, axis: [[f32; 3]; 2], view: (f32, f32)) -> Camera {
         self.framing_around(axis, view)
+    }
+
+    fn places(&self) -> Vec<[f32; 3]> {
+        self.places().collect()
     }
 }
 
@@ -63,6 +70,10 @@ impl Viewed for Seen<'_> {
 
     fn framing_around(&self, axis: [[f32; 3]; 2], view: (f32, f32)) -> Camera {
         self.model.framing_around(&self.smoke, axis, view)
+    }
+
+    fn places(&self) -> Vec<[f32; 3]> {
+        self.model.places_with(&self.smoke).collect()
     }
 }
 
@@ -93,6 +104,10 @@ impl Viewed for Staged<'_> {
         let points = self.points.iter().copied().map(Into::into);
         let swept = npr_core::camera::swept(points, pivot, axis);
         Camera::framing_points(swept.into_iter(), aspect, fov_y)
+    }
+
+    fn places(&self) -> Vec<[f32; 3]> {
+        self.points.to_vec()
     }
 }
 
@@ -134,7 +149,7 @@ pub fn orbit(args: &CameraArguments, model: &dyn Viewed, size: Size) -> Result<O
         Some(name) => camera_of_file(name, model.cameras())?,
         None => placed_camera(
             args,
-            model.framing_around([pivot, axis], shape(args, size)),
+            framing_around(args, model, [pivot, axis], size),
             middle,
         )?,
     };
@@ -147,18 +162,55 @@ pub fn orbit(args: &CameraArguments, model: &dyn Viewed, size: Size) -> Result<O
 
 /// Width / height of the frame, and the vertical field of view in radians.
 fn shape(args: &CameraArguments, size: Size) -> (f32, f32) {
-    let fov_y = args.fov.unwrap_or(DEFAULT_FOV_DEG).to_radians();
-    (size.width as f32 / size.height as f32, fov_y)
+    (size.width as f32 / size.height as f32, fov_of(args))
+}
+
+/// The vertical field of view in radians.
+fn fov_of(args: &CameraArguments) -> f32 {
+    args.fov.unwrap_or(DEFAULT_FOV_DEG).to_radians()
 }
 
 /// The camera that the user asked for, or one that frames the whole model from three quarters above.
 pub fn camera(args: &CameraArguments, model: &dyn Viewed, size: Size) -> Result<Camera, Fault> {
     match &args.camera {
         Some(name) => camera_of_file(name, model.cameras()),
-        None => {
-            let (aspect, fov_y) = shape(args, size);
-            placed_camera(args, model.framing(aspect, fov_y), middle(model.bounds()))
-        }
+        None => placed_camera(args, framing(args, model, size), middle(model.bounds())),
+    }
+}
+
+/// A view of the whole model, from the side and in the projection that the user asked for.
+fn framing(args: &CameraArguments, model: &dyn Viewed, size: Size) -> Camera {
+    let (aspect, fov_y) = shape(args, size);
+    match (args.view, args.ortho) {
+        (None, false) => model.framing(aspect, fov_y),
+        _ => from_side(args, model.places(), (aspect, fov_y)),
+    }
+}
+
+/// The same of all that the model sweeps where the camera turns about an axis.
+fn framing_around(
+    args: &CameraArguments,
+    model: &dyn Viewed,
+    axis: [[f32; 3]; 2],
+    size: Size,
+) -> Camera {
+    let view = shape(args, size);
+    if args.view.is_none() && !args.ortho {
+        return model.framing_around(axis, view);
+    }
+    let places = model.places().into_iter().map(Into::into);
+    let places: Vec<_> = places.collect();
+    let swept = npr_core::camera::swept(places.into_iter(), axis[0], axis[1]);
+    from_side(args, swept, view)
+}
+
+/// A view of places from a side other than the usual one, or in parallel.
+fn from_side(args: &CameraArguments, places: Vec<[f32; 3]>, (aspect, fov_y): (f32, f32)) -> Camera {
+    let sides = args.view.map_or(THREE_QUARTERS, StandardView::sides);
+    let places = places.into_iter();
+    match args.ortho {
+        true => Camera::framing_parallel(places, sides, aspect, fov_y),
+        false => Camera::framing_points_from(places, sides, aspect, fov_y),
     }
 }
 
@@ -207,7 +259,12 @@ fn placed_camera(
         eye: args.eye.map_or(framing.eye, |eye| eye.0),
         target: args.target.map_or(target, |target| target.0),
         up: args.up.map_or(framing.up, |up| up.0),
-        projection: framing.projection,
+        projection: match args.ortho {
+            true => Projection::Perspective {
+                fov_y: fov_of(args),
+            },
+            false => framing.projection,
+        },
     };
 
     // Refuse to look from a point at itself.
@@ -216,7 +273,10 @@ fn placed_camera(
         let message = format!("eye and target are the same point {x},{y},{z}");
         return Err(Fault::new(Exit::Usage, message));
     }
-    Ok(camera)
+    Ok(match args.ortho {
+        true => camera.in_parallel(),
+        false => camera,
+    })
 }
 
 /// The middle of a box.
@@ -263,6 +323,67 @@ mod tests {
             placed_camera(&CameraArguments::default(), framing, [7.0; 3]),
             Ok(framing)
         );
+    }
+
+    /// A box of corners that differ in every direction.
+    fn boxed() -> Staged<'static> {
+        const POINTS: [[f32; 3]; 2] = [[0.0; 3], [2.0, 4.0, 6.0]];
+        Staged {
+            cameras: &[],
+            points: &POINTS,
+            bounds: (POINTS[0], POINTS[1]),
+        }
+    }
+
+    #[test]
+    fn a_side_is_looked_at_from_its_middle_and_parallel_where_asked() {
+        let size = Size {
+            width: 100,
+            height: 100,
+        };
+        let seen = |view, ortho| {
+            let args = CameraArguments {
+                view,
+                ortho,
+                ..CameraArguments::default()
+            };
+            camera(&args, &boxed(), size).expect("a view")
+        };
+        let front = seen(Some(StandardView::Front), true);
+        assert_eq!(front.target, [1.0, 2.0, 3.0]);
+        assert_eq!((front.eye[0], front.eye[1]), (1.0, 2.0));
+        let Projection::Parallel { height } = front.projection else {
+            panic!("perspective");
+        };
+        assert!((4.0..5.0).contains(&height), "{height}");
+        let top = seen(Some(StandardView::Top), false);
+        assert!(top.eye[1] > 4.0 && top.up == [0.0, 0.0, -1.0], "{top:?}");
+        assert!(matches!(top.projection, Projection::Perspective { .. }));
+        let parallel = |camera: Camera| matches!(camera.projection, Projection::Parallel { .. });
+        assert!(parallel(seen(None, true)) && !parallel(seen(None, false)));
+    }
+
+    #[test]
+    fn a_parallel_view_is_said_again_by_eye_and_target() {
+        let size = Size {
+            width: 160,
+            height: 90,
+        };
+        let ortho = CameraArguments {
+            view: Some(StandardView::Iso),
+            ortho: true,
+            fov: Some(30.0),
+            ..CameraArguments::default()
+        };
+        let first = camera(&ortho, &boxed(), size).expect("a view");
+        let again = CameraArguments {
+            view: None,
+            eye: Some(Point(first.eye)),
+            target: Some(Point(first.target)),
+            up: Some(Point(first.up)),
+            ..ortho
+        };
+        assert_eq!(camera(&again, &boxed(), size), Ok(first));
     }
 
     #[test]

@@ -35,8 +35,8 @@ pub struct Camera {
 /// The vertical field of view of a camera that nobody set, in degrees.
 pub const DEFAULT_FOV_DEG: f32 = 40.0;
 
-/// Where a default view looks from: three quarters, from above.
-const THREE_QUARTERS: Vec3 = Vec3::new(0.6, 0.45, 1.0);
+/// Where a default view looks from, three quarters from above, and what is up in it.
+pub const THREE_QUARTERS: ([f32; 3], [f32; 3]) = ([0.6, 0.45, 1.0], [0.0, 1.0, 0.0]);
 
 /// How much of the frame a framed box fills, the rest is margin.
 const FRAMED_SHARE: f32 = 0.88;
@@ -61,9 +61,18 @@ impl Camera {
     /// The eye stands as near as it can with every point inside the frame and a margin around, and the points lie
     /// in the middle of the frame. Without points, a unit box is framed.
     pub fn framing_points(points: impl Iterator<Item = [f32; 3]>, aspect: f32, fov_y: f32) -> Self {
-        let back = THREE_QUARTERS.normalize();
-        let right = Vec3::Y.cross(back).normalize();
-        let up = back.cross(right);
+        Self::framing_points_from(points, THREE_QUARTERS, aspect, fov_y)
+    }
+
+    /// The same view from another side. `back` leads from the scene towards the eye, `up` is that of the picture; they
+    /// must not be parallel.
+    pub fn framing_points_from(
+        points: impl Iterator<Item = [f32; 3]>,
+        (back, up_world): ([f32; 3], [f32; 3]),
+        aspect: f32,
+        fov_y: f32,
+    ) -> Self {
+        let [right, up, back] = axes_of(back, up_world);
         let tan_y = math::tan(fov_y * 0.5) * FRAMED_SHARE;
         let tan_x = tan_y * aspect;
 
@@ -87,8 +96,60 @@ impl Camera {
         Self {
             eye: eye.to_array(),
             target: (eye - back * (z - nearest).max(1e-3)).to_array(),
-            up: [0.0, 1.0, 0.0],
+            up: up_world,
             projection: Projection::Perspective { fov_y },
+        }
+    }
+
+    /// A parallel view of points, from a side as [`Camera::framing_points_from`] takes it, with the same margin.
+    ///
+    /// The target is the middle of the points, and the eye stands where a perspective view with the field of view
+    /// `fov_y` would have the same height at the target: [`Camera::in_parallel`] gives the height back.
+    pub fn framing_parallel(
+        points: impl Iterator<Item = [f32; 3]>,
+        (back, up_world): ([f32; 3], [f32; 3]),
+        aspect: f32,
+        fov_y: f32,
+    ) -> Self {
+        let axes = axes_of(back, up_world);
+        let mut reach = [(f32::MAX, f32::MIN); 3];
+        for point in points.map(Vec3::from) {
+            for ((low, high), axis) in reach.iter_mut().zip(axes) {
+                let place = point.dot(axis);
+                (*low, *high) = (low.min(place), high.max(place));
+            }
+        }
+        if reach[0].0 > reach[0].1 {
+            reach = [(-0.5, 0.5); 3];
+        }
+        let length = |(low, high): (f32, f32)| high - low;
+        let middle = |(low, high): (f32, f32)| (low + high) * 0.5;
+        let height = length(reach[1])
+            .max(length(reach[0]) / aspect)
+            .max(length(reach[2]) * 1e-4)
+            .max(1e-6)
+            / FRAMED_SHARE;
+        let [right, up, back] = axes;
+        let target = right * middle(reach[0]) + up * middle(reach[1]) + back * middle(reach[2]);
+        Self {
+            eye: (target + back * (height / (2.0 * math::tan(fov_y * 0.5)))).to_array(),
+            target: target.to_array(),
+            up: up_world,
+            projection: Projection::Perspective { fov_y },
+        }
+        .in_parallel()
+    }
+
+    /// The camera in parallel view: what lies at the target keeps its size. One that is parallel stays as it is.
+    pub fn in_parallel(&self) -> Self {
+        let Projection::Perspective { fov_y } = self.projection else {
+            return *self;
+        };
+        let distance = Vec3::from(self.eye).distance(Vec3::from(self.target));
+        let height = 2.0 * math::tan(fov_y * 0.5) * distance;
+        Self {
+            projection: Projection::Parallel { height },
+            ..*self
         }
     }
 
@@ -181,6 +242,13 @@ impl Camera {
         let room = (range.1 - range.0).max(range.1.abs() * 1e-3).max(1e-6) * 0.01;
         (range.0 - room, range.1 + room)
     }
+}
+
+/// Right, up and back of a picture, unit length, from where its eye stands and which way is up.
+fn axes_of(back: [f32; 3], up: [f32; 3]) -> [Vec3; 3] {
+    let back = Vec3::from(back).normalize();
+    let right = Vec3::from(up).cross(back).normalize();
+    [right, back.cross(right), back]
 }
 
 /// Slices along the axis, and points on the ring of each, that stand for what turns.
@@ -299,6 +367,7 @@ fn parallel_reversed(height: f32, aspect: f32, near: f32, far: f32) -> Mat4 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::standard_view::StandardView;
     use proptest::prelude::*;
 
     fn project(view: &View, world: [f32; 3]) -> [f32; 4] {
@@ -320,6 +389,31 @@ mod tests {
                 prop_assert!(clip[3] > 0.0 && clip[2] <= clip[3] && clip[2] >= 0.0);
                 prop_assert!(clip[0].abs() <= clip[3] && clip[1].abs() <= clip[3]);
             }
+        }
+
+        #[test]
+        fn a_box_lies_inside_the_frame_from_every_side_in_both_projections(
+            x in -50f32..50.0, w in 0.01f32..20.0, h in 0.01f32..20.0, d in 0.01f32..20.0,
+            aspect in 0.3f32..3.0, side in 0..StandardView::ALL.len(), is_parallel: bool,
+        ) {
+            let side = StandardView::ALL[side];
+            let (min, max) = ([x, 1.0, -2.0], [x + w, 1.0 + h, d - 2.0]);
+            let points = corners(Vec3::from(min), Vec3::from(max)).map(|corner| corner.to_array());
+            let camera = match is_parallel {
+                true => Camera::framing_parallel(points, side.sides(), aspect, 0.7),
+                false => Camera::framing_points_from(points, side.sides(), aspect, 0.7),
+            };
+            let parallel = matches!(camera.projection, Projection::Parallel { .. });
+            prop_assert_eq!(parallel, is_parallel);
+            let view = camera.view([(aspect * 1000.0) as u32, 1000], (min, max));
+            let places = corners(Vec3::from(min), Vec3::from(max)).map(|corner| {
+                let clip = project(&view, corner.to_array());
+                [clip[0] / clip[3], clip[1] / clip[3]]
+            });
+            let places: Vec<[f32; 2]> = places.collect();
+            let reach = |axis: usize| places.iter().fold(0.0, |far: f32, at| far.max(at[axis].abs()));
+            prop_assert!(reach(0) < 0.95 && reach(1) < 0.95, "{} {}", reach(0), reach(1));
+            prop_assert!(reach(0).max(reach(1)) > 0.8, "{} {}", reach(0), reach(1));
         }
 
         #[test]

@@ -37,6 +37,7 @@ pub mod published_path;
 pub mod random;
 pub mod raster;
 pub mod smoke;
+pub mod standard_view;
 pub mod surface;
 pub mod texture;
 pub mod window;

@@ -368,8 +368,13 @@ impl Model {
 
     /// The same view of the model together with smoke.
     pub fn framing_with(&self, smoke: &Smoke, aspect: f32, fov_y: f32) -> Camera {
+        Camera::framing_points(self.places_with(smoke), aspect, fov_y)
+    }
+
+    /// Places all over the model together with smoke, for framing it; those of vertices are exact.
+    pub fn places_with(&self, smoke: &Smoke) -> impl Iterator<Item = [f32; 3]> {
         let points = self.posed_points().chain(smoke.reach());
-        Camera::framing_points(points.map(|point| point.to_array()), aspect, fov_y)
+        points.map(|point| point.to_array())
     }
 
     /// A view from three quarters above that the model together with smoke stays within while the camera turns about

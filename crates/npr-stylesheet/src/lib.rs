@@ -41,6 +41,7 @@ mod dash;
 mod derived_style;
 mod detect;
 mod error;
+mod field;
 mod former;
 mod glob;
 mod hand;
@@ -89,6 +90,7 @@ pub use color::{Color, ColorError};
 pub use dash::{Dash, RuleDash};
 pub use detect::{DepthTest, Detect, IdTest, MASK_LINE_PX, NormalTest, WidthWarning, width_rule};
 pub use error::{Problem, SourceLocation, StyleError};
+pub use field::{Field, Form, fields};
 pub use hand::{Hand, RuleHand};
 pub use highlight::{
     Back, Edge, Highlight, HighlightModel, RuleBack, RuleHighlight, RuleStreak, Streak,

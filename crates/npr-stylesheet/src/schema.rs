@@ -14,7 +14,7 @@ pub fn schema() -> &'static Value {
 
 /// One node of the schema.
 #[derive(Clone, Copy)]
-pub(crate) struct Node(&'static Map<String, Value>);
+pub(crate) struct Node(pub(crate) &'static Map<String, Value>);
 
 impl Node {
     /// The node of a whole style.
@@ -34,7 +34,7 @@ impl Node {
         }
     }
 
-    fn text(self, key: &str) -> Option<&'static str> {
+    pub(crate) fn text(self, key: &str) -> Option<&'static str> {
         self.0.get(key)?.as_str()
     }
 
@@ -99,6 +99,26 @@ impl Node {
             .filter_map(Self::of)
             .filter_map(|node| node.0.get("const"));
         alone.chain(described).collect()
+    }
+
+    /// The same with what each of them means, as far as that is said.
+    pub(crate) fn described_words(self) -> Vec<(toml::Value, &'static str)> {
+        let text = |word: &Value| {
+            let described = self.list("oneOf").filter_map(Self::of);
+            let mut described = described.filter(|node| node.0.get("const") == Some(word));
+            described.next().and_then(|node| node.text("description"))
+        };
+        let words = self.words().into_iter();
+        let words = words.filter_map(|word| {
+            let value = toml::Value::try_from(word).ok()?;
+            Some((value, text(word).unwrap_or_default()))
+        });
+        words.collect()
+    }
+
+    /// Whether it stands for no value.
+    pub(crate) fn is_null_alone(self) -> bool {
+        self.text("type") == Some("null")
     }
 
     /// The name of the text's format, such as `color`.

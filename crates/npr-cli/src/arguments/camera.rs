@@ -2,6 +2,8 @@
 
 use super::point::{Point, direction};
 use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use npr_core::standard_view::StandardView;
 
 /// What the user said about the camera.
 #[derive(Debug, Clone, Default, PartialEq, Args)]
@@ -19,12 +21,27 @@ pub struct CameraArguments {
     /// Vertical field of view in degrees, above 0 and below 180 [default: 40].
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = field_of_view)]
     pub fov: Option<f32>,
+    /// Look at the whole scene from a side: +z is the front, +x the right, +y the top; iso from all three.
+    #[arg(
+        long, value_name = "SIDE", value_parser = side(), conflicts_with_all = ["eye", "target", "up"]
+    )]
+    pub view: Option<StandardView>,
+    /// Parallel view, without perspective: what lies at the target keeps its size. With --eye, --target and --fov the
+    /// frame is as high as theirs is at the target.
+    #[arg(long)]
+    pub ortho: bool,
     /// A camera of the file instead, by its name or its number from 0.
     #[arg(
         long, value_name = "NAME|INDEX", allow_negative_numbers = true,
-        conflicts_with_all = ["eye", "target", "up", "fov"]
+        conflicts_with_all = ["eye", "target", "up", "fov", "view", "ortho"]
     )]
     pub camera: Option<String>,
+}
+
+/// Parses the name of a standard view.
+fn side() -> impl TypedValueParser<Value = StandardView> {
+    let names = StandardView::ALL.map(StandardView::name);
+    PossibleValuesParser::new(names).try_map(|name| StandardView::of(&name).ok_or("no side"))
 }
 
 /// Parses a field of view, 0.01 to 179.9 degrees.

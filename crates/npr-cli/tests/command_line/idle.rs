@@ -267,6 +267,35 @@ const DRAWINGS: &[Case] = &[
     ),
     (
         &["render", "scene.obj", "-o", "a.png"],
+        &["--view", "left"],
+        Acts,
+    ),
+    (
+        &["lines", "scene.obj", "-o", "a.svg"],
+        &["--view", "iso"],
+        Acts,
+    ),
+    (
+        &["render", "scene.obj", "-o", "a.png", "--view", "front"],
+        &["--ortho"],
+        Acts,
+    ),
+    (&["lines", "scene.obj", "-o", "a.svg"], &["--ortho"], Acts),
+    (
+        &[
+            "animate",
+            "scene.obj",
+            "--turntable",
+            "--frames",
+            "0..1",
+            "-o",
+            "a.gif",
+        ],
+        &["--ortho"],
+        Acts,
+    ),
+    (
+        &["render", "scene.obj", "-o", "a.png"],
         &["--size", "80x64"],
         Acts,
     ),

@@ -32,6 +32,15 @@ fn wrong_command_lines_exit_with_2_and_leave_nothing() {
             &["render", "scene.obj", "--camera", "0", "--fov", "50"],
             "--fov",
         ),
+        (&["render", "scene.obj", "--view", "above"], "front, back"),
+        (
+            &["render", "scene.obj", "--view", "top", "--eye", "1,2,3"],
+            "--eye",
+        ),
+        (
+            &["render", "scene.obj", "--camera", "0", "--ortho"],
+            "--ortho",
+        ),
         (
             &["render", "scene.obj", "--backend", "abacus"],
             "auto, cpu, gpu",

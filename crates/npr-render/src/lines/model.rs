@@ -734,12 +734,14 @@ impl LineModel {
     ///
     /// The same as [`Model::framing_with`](crate::Model::framing_with) gives for the scene with its smoke.
     pub fn framing(&self, aspect: f32, fov_y: f32) -> Camera {
-        let smoke = self
-            .smoke
-            .iter()
-            .flat_map(Smoke::reach)
-            .map(|point| point.to_array());
-        Camera::framing_points(self.points.iter().copied().chain(smoke), aspect, fov_y)
+        Camera::framing_points(self.places(), aspect, fov_y)
+    }
+
+    /// Places all over the scene with its smoke, for framing it.
+    pub fn places(&self) -> impl Iterator<Item = [f32; 3]> {
+        let smoke = self.smoke.iter().flat_map(Smoke::reach);
+        let smoke = smoke.map(|point| point.to_array());
+        self.points.iter().copied().chain(smoke)
     }
 
     /// A view from three quarters above that all of it stays within while the camera turns about an axis through
