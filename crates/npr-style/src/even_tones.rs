@@ -482,11 +482,14 @@ mod tests {
         #[test]
         fn tones_of_other_parts_do_not_matter(words in prop::collection::vec((0u32..3, 0u32..3), 25), other in 0u32..3) {
             let cell = |x: u32, y: u32| words[((y / 8) * 5 + x / 8) as usize];
-            let of = |other_tone: Option<u32>, flags_all| Toned::new(vec![part(2.5), part(2.5)], flags_all, |x, y| match cell(x, y) {
-                (0, _) => 0,
-                (1, tone) => word(0, tone),
-                (_, tone) => word(1, other_tone.unwrap_or(tone)),
-            });
+            let of = |other_tone: Option<u32>, flags_all| {
+                let parts = vec![part(2.5), part(2.5)];
+                Toned::new(parts, flags_all, |x, y| match cell(x, y) {
+                    (0, _) => 0,
+                    (1, tone) => word(0, tone),
+                    (_, tone) => word(1, other_tone.unwrap_or(tone)),
+                })
+            };
             let (first, second, walked) = (of(None, false), of(Some(other), false), of(None, true));
             for (x, y) in pixels(0..SIDE).filter(|(x, y)| cell(*x, *y).0 == 1) {
                 let tone = first.tone(x, y);

@@ -37,8 +37,8 @@ pub struct Shade {
     #[schemars(range(min = 0.0, max = 0.5))]
     pub calm: f32 = 0.02,
     /// Narrowest piece of a tone that is drawn, in reference pixels or a length with a unit; default 0. At 2 strips of
-    /// shade along folds and specks of light that are narrower take the tone around them; at 5 masses are calm and their
-    /// corners round. At most 6.5 pixels of the picture. For hard steps alone: `softness` 0, and no `ramp_image`.
+    /// shade along folds and specks of light that are narrower take the tone around them; at 5 masses are calm and
+    /// their corners round. At most 6.5 pixels of the picture. For hard steps alone: `softness` 0, and no `ramp_image`.
     pub least: Length = Length::ref_px(0.0),
     /// Colour of the paper that mode `paper` fills surfaces with; default white.
     pub paper: Color = Color::WHITE,
