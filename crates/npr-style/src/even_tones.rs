@@ -4,8 +4,8 @@
 //! 2. [`flag_tones`] flags the tiles that hold more than one tone of a part.
 //! 3. [`even_tones`] takes the median of the tones over a disc, the pixels of other parts left out. A median drops
 //!    strips that cover less than half of the disc, and keeps straight edges where they are. Where it differs from the
-//!    tone of the pixel, the tone is *changed*. Its edge is blended over one pixel by how far the share of the disc lies
-//!    from a half: blur and cut, as [Merriman, Bence & Osher 1992] move curves.
+//!    tone of the pixel, the tone is *changed*. Its edge is blended over one pixel by how far the share of the disc
+//!    lies from a half: blur and cut, as [Merriman, Bence & Osher 1992] move curves.
 //! 4. The last pass looks at the medians of a pixel and of its neighbours. Where all are the same, the pixel has that
 //!    tone, whatever its samples say. Where they differ and none is changed, an edge of the light goes through, and the
 //!    samples show it as they do without all this. Where one is changed, the blended edge is shown.
@@ -100,8 +100,8 @@ pub struct ToneMap<'a> {
     pub words: &'a [u32],
 }
 
-/// Finds the tiles of [`TILE`] pixels in which tones may change: 1 for each where a part shows two tones within reach of
-/// it, or more than two words of the tone map lie there; else 0.
+/// Finds the tiles of [`TILE`] pixels in which tones may change: 1 for each where a part shows two tones within reach,
+/// or more than two words of the tone map lie there; else 0.
 ///
 /// O(pixels), parallel over rows of tiles.
 pub fn flag_tones(map: &ToneMap<'_>, flags: &mut [u32]) {
@@ -438,7 +438,9 @@ mod tests {
     proptest! {
         /// A straight edge, however it lies, changes no pixel: its samples show it.
         #[test]
-        fn straight_edges_are_left_to_the_samples(angle in 0f32..6.28, shift in -8f32..8.0, least in 2f32..6.0, samples in 1u32..3) {
+        fn straight_edges_are_left_to_the_samples(
+            angle in 0f32..6.28, shift in -8f32..8.0, least in 2f32..6.0, samples in 1u32..3,
+        ) {
             let normal = [angle.cos(), angle.sin()];
             let middle = SIDE as f32 / 2.0;
             let ahead = |[x, y]: [f32; 2]| (x - middle) * normal[0] + (y - middle) * normal[1] - shift;
@@ -457,7 +459,9 @@ mod tests {
 
         /// Narrow strips are gone, wide ones are whole, whichever of two tones they have.
         #[test]
-        fn strips_show_if_they_are_wide_enough(angle in 0f32..6.28, shift in -6f32..6.0, least in 2f32..5.0, is_dark: bool) {
+        fn strips_show_if_they_are_wide_enough(
+            angle in 0f32..6.28, shift in -6f32..6.0, least in 2f32..5.0, is_dark: bool,
+        ) {
             let normal = [angle.cos(), angle.sin()];
             let middle = SIDE as f32 / 2.0;
             let away = |[x, y]: [f32; 2]| ((x - middle) * normal[0] + (y - middle) * normal[1] - shift).abs();
@@ -480,7 +484,9 @@ mod tests {
 
         /// What a pixel has is a tone of its part, hangs on no other part, and is found with and without flags alike.
         #[test]
-        fn tones_of_other_parts_do_not_matter(words in prop::collection::vec((0u32..3, 0u32..3), 25), other in 0u32..3) {
+        fn tones_of_other_parts_do_not_matter(
+            words in prop::collection::vec((0u32..3, 0u32..3), 25), other in 0u32..3,
+        ) {
             let cell = |x: u32, y: u32| words[((y / 8) * 5 + x / 8) as usize];
             let of = |other_tone: Option<u32>, flags_all| {
                 let parts = vec![part(2.5), part(2.5)];
