@@ -202,7 +202,7 @@ impl<'a> FilmJob<'a> {
         let film = &self.args.film;
         let limits = self.args.drawing.limits.limits();
         let playing = Playing::of(&self.args.drawing.pose, scene, film.fps, &limits)?;
-        let clip_s = playing.as_ref().map(Playing::duration_s);
+        let clip_s = playing.as_ref().and_then(Playing::duration_s);
         let plan = FilmPlan::new(film, clip_s.or(flows.then_some(FLOW_SECONDS)))?;
         let Frames { first, last } = plan.frames;
         let target = match self.format {
@@ -263,7 +263,7 @@ impl<'a> FilmJob<'a> {
     ) -> Result<Way<'b>, Fault> {
         let args = &self.args.drawing;
         let stage = frames.playing.as_ref();
-        let stage = stage.map(|playing| playing.stage(scene, smoke));
+        let stage = stage.and_then(|playing| playing.stage(scene, smoke));
         let orbit = |seen: &dyn Viewed| orbit_of(args, &frames.plan, seen);
         Ok(Way {
             args,
@@ -283,10 +283,10 @@ impl<'a> FilmJob<'a> {
 
     /// Warns of options that have no effect in the frames of the film, drawn in a style.
     fn tell_idle(&self, frames: &Frameset, style: &Style, progress: &Progress) {
-        let is_timed =
-            matches!(self.format, Format::Whole(_)) || frames.playing.is_some() || frames.flows;
+        let is_timed = matches!(self.format, Format::Whole(_)) || frames.plays() || frames.flows;
         let notices = idle::of_animate(self.args, self.lines.is_some(), style, is_timed);
-        let of_pose = frames.playing.iter().flat_map(Playing::warnings);
+        let playing = frames.playing.iter().filter(|_| frames.plays());
+        let of_pose = playing.flat_map(Playing::warnings);
         progress.suspend(|| {
             message::warn_all(self.args.drawing.quiet, of_pose);
             message::warn_all(self.args.drawing.quiet, notices);
@@ -333,9 +333,15 @@ fn orbit_of(args: &DrawingArguments, plan: &FilmPlan, seen: &dyn Viewed) -> Resu
 }
 
 impl Frameset {
+    /// Whether a clip plays.
+    fn plays(&self) -> bool {
+        let playing = self.playing.as_ref();
+        playing.is_some_and(|playing| playing.duration_s().is_some())
+    }
+
     /// The pose that the scene holds in all frames; none where a clip plays.
     fn held<'a>(&self, args: &'a DrawingArguments) -> Option<&'a PoseArguments> {
-        self.playing.is_none().then_some(&args.pose)
+        (!self.plays()).then_some(&args.pose)
     }
 }
 
@@ -411,11 +417,11 @@ fn draw_frames(
             let mut scene = staged.scene.clone();
             let steps = steps(&frames.numbers, screening.done(), holds);
             screening.show_each(steps, |Step { number, passed }| {
-                let warning = playing.pose(&mut scene, number);
-                let movement = playing.movement(&mut scene, number, &job.look.style)?;
+                let seen = |scene: &Scene| way.at(number, scene);
+                let (camera, warning) = playing.pose(&mut scene, number, seen)?;
+                let movement = playing.movement(&mut scene, (number, &camera), &job.look.style)?;
                 renderer.set_pose(&scene)?;
                 renderer.set_movement(movement);
-                let camera = way.at(number, &scene)?;
                 if passed {
                     renderer.pass(&camera)?;
                     return Ok(None);
@@ -472,13 +478,19 @@ fn draw_lines(
             let steps = steps(&frames.numbers, screening.done(), film.holds());
             screening.show_each(steps, |Step { number, passed }| {
                 let mut notices = Vec::new();
-                if let Some(playing) = &frames.playing {
-                    notices.extend(playing.pose(&mut scene, number));
-                    let movement = playing.movement(&mut scene, number, &job.look.style)?;
-                    renderer.set_pose(&scene)?;
-                    renderer.set_movement(movement);
-                }
-                let camera = way.at(number, &scene)?;
+                let camera = match &frames.playing {
+                    None => way.still(number),
+                    Some(playing) => {
+                        let seen = |scene: &Scene| way.at(number, scene);
+                        let (camera, warning) = playing.pose(&mut scene, number, seen)?;
+                        let moment = (number, &camera);
+                        let movement = playing.movement(&mut scene, moment, &job.look.style)?;
+                        renderer.set_pose(&scene)?;
+                        renderer.set_movement(movement);
+                        notices.extend(warning);
+                        camera
+                    }
+                };
                 if passed {
                     renderer.pass(&camera, &job.look.style, &job.options)?;
                     return Ok(None);

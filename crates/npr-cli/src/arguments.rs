@@ -34,7 +34,7 @@ pub use lines::{
 pub use look::LookArguments;
 pub use outline::{Behind, OutlineArguments};
 pub use point::Point;
-pub use pose::{ExpressionShare, PoseArguments};
+pub use pose::{ExpressionShare, LookedAt, PoseArguments};
 pub use render::RenderArguments;
 pub use size::Size;
 pub use smoke::SmokeArguments;

@@ -12,7 +12,7 @@ use crate::line_file::{self, Ink};
 use crate::line_job::LineJob;
 use crate::look::Look;
 use crate::message;
-use crate::pose;
+use crate::pose::{self, Posed};
 use crate::progress::Progress;
 use crate::reel::Shown;
 use crate::source::Loaded;
@@ -24,13 +24,12 @@ use npr_core::geometry::Part;
 use npr_drawing::artwork::StrokeBrushes;
 use npr_gpu::engine::{Engine, PassTime};
 use npr_render::{
-    Drawing, Kind, LineModel, LineModelOptions, LineRenderer, LineSource, Model, Movement, Smoke,
-    facts_of,
+    Drawing, Kind, LineModel, LineModelOptions, LineRenderer, LineSource, Model, RenderError,
+    Smoke, facts_of,
 };
 use npr_scene::{Limits, Scene};
 use npr_stylesheet::{Background, Style};
 use std::io::Write;
-use std::sync::Arc;
 
 /// Draws the lines that the user asked for, or prints the style.
 pub fn lines(args: &LinesArguments) -> Result<(), Fault> {
@@ -82,9 +81,15 @@ fn draw(job: &LineJob<'_>, progress: &mut Progress) -> Result<Drawn<LineFrame>, 
     line_file::check_memory(job)?;
     let engine = EngineChoice::begin(&job.args.drawing);
     let loaded = load(job, progress)?;
-    let model = prepare(job, loaded, Some(&job.args.drawing.pose), progress)?;
-    let lines = &model.lines;
-    let camera = viewpoint::camera(&job.args.drawing.camera, lines, job.args.drawing.size)?;
+    let mut model = prepare(job, loaded, Some(&job.args.drawing.pose), progress)?;
+    let args = &job.args.drawing;
+    let camera = viewpoint::camera(&args.camera, &model.lines, args.size)?;
+    if model
+        .posed
+        .face(&mut model.scene, &camera, &job.look.style)?
+    {
+        model.follow(progress)?;
+    }
     let drawn = draw_lines((job, &engine), &model, &camera, progress)?;
     let drawing = &drawn.picture.drawing;
     progress.suspend(|| {
@@ -109,8 +114,8 @@ pub struct Prepared {
     pub smoke: Option<Smoke>,
     /// What all of it was made of, in the same pose.
     pub scene: Scene,
-    /// Where everything was before, where lines follow motion.
-    movement: Option<Arc<Movement>>,
+    /// How it came into that pose.
+    posed: Posed,
 }
 
 impl Prepared {
@@ -144,16 +149,20 @@ impl Prepared {
         (style, limits): (&Style, &Limits),
         progress: &mut Progress,
     ) -> Result<Vec<String>, Fault> {
-        let posed = pose::pose((args, false), &mut self.scene, style, limits)?;
-        self.movement = posed.movement;
-        if posed.is_posed {
-            progress.step("pose", || {
-                self.lines.set_pose(&self.scene)?;
-                let behind = self.behind.as_mut();
-                behind.map_or(Ok(()), |model| model.set_pose(&self.scene))
-            })?;
+        self.posed = pose::pose((args, false), &mut self.scene, style, limits)?;
+        if self.posed.is_posed {
+            self.follow(progress)?;
         }
-        Ok(posed.warnings)
+        Ok(self.posed.warnings.clone())
+    }
+
+    /// Moves its lines, and what is behind them, to where the scene stands.
+    fn follow(&mut self, progress: &mut Progress) -> Result<(), RenderError> {
+        progress.step("pose", || {
+            self.lines.set_pose(&self.scene)?;
+            let behind = self.behind.as_mut();
+            behind.map_or(Ok(()), |model| model.set_pose(&self.scene))
+        })
     }
 
     /// A renderer of its lines.
@@ -163,7 +172,7 @@ impl Prepared {
         job: &'a LineJob<'_>,
     ) -> LineRenderer<'a> {
         let mut renderer = LineRenderer::new(engine, &self.lines);
-        renderer.set_movement(self.movement.clone());
+        renderer.set_movement(self.posed.movement.clone());
         match (&self.behind, &job.backdrop) {
             (Some(model), Some(options)) => renderer.with_backdrop(model, options),
             _ => renderer,
@@ -305,7 +314,7 @@ fn prepared(job: &LineJob<'_>, scene: Scene, smoke: Option<Smoke>) -> Result<Pre
         brushes,
         smoke,
         scene,
-        movement: None,
+        posed: Posed::default(),
     })
 }
 

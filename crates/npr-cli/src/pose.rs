@@ -1,14 +1,15 @@
 //! Puts a scene into the pose that the user asked for.
 
-use crate::arguments::{ExpressionShare, PoseArguments};
+use crate::arguments::{ExpressionShare, LookedAt, PoseArguments};
 use crate::fault::{Exit, Fault};
 use crate::input::read_file;
 use crate::message::{self, quoted};
 use crate::source::{Loaded, Source};
+use npr_core::camera::Camera;
 use npr_render::{Movement, RenderError};
 use npr_scene::{
-    Bone, Clip, Limits, MotionError, Notice, Pose, Posture, PostureError, PostureFault, Property,
-    Scene,
+    Bone, Clip, Eyes, Figure, Limits, MotionError, Notice, Pose, Posture, PostureError,
+    PostureFault, Property, Scene,
 };
 use npr_stylesheet::Style;
 use std::collections::BTreeMap;
@@ -84,6 +85,8 @@ pub struct Stance {
     posture: Option<Posture>,
     /// Shares of expressions, by number.
     shares: BTreeMap<u32, f32>,
+    /// What its figure looks at.
+    look_at: Option<LookedAt>,
     /// Most bytes that it may take to know where everything was.
     memory_limit: u64,
     /// What there is to warn of.
@@ -104,25 +107,52 @@ impl Stance {
             memory_limit: limits.memory_bytes,
             ..Self::default()
         };
+        if let Some(look_at) = args.look_at {
+            let warning = why_not_looking(scene.figure.as_ref());
+            let looks = scene.figure.as_ref().is_some_and(Figure::can_look);
+            stance.look_at = Some(look_at).filter(|_| looks);
+            stance.warnings.extend(warning.map(str::to_owned));
+        }
         if let Some(path) = &args.pose {
             let (posture, warnings) = posture_of(path, scene, limits)?;
-            (stance.posture, stance.warnings) = (Some(posture), warnings);
+            stance.posture = Some(posture);
+            stance.warnings.extend(warnings);
         }
         Ok(stance)
     }
 
     /// Whether it is the pose at rest.
     fn is_rest(&self) -> bool {
-        self.clip.is_none() && self.posture.is_none() && self.shares.is_empty()
+        self.clip.is_none()
+            && self.posture.is_none()
+            && self.shares.is_empty()
+            && self.look_at.is_none()
     }
 
-    /// Puts the scene into it at a time of the clip, in seconds, and gives what there is to warn of: a pose that would
-    /// carry something out of range is not taken.
-    pub fn stand(&self, scene: &mut Scene, time_s: f32) -> Option<String> {
+    /// Whether its figure looks at the camera.
+    pub fn follows_camera(&self) -> bool {
+        self.look_at == Some(LookedAt::Camera)
+    }
+
+    /// Puts the scene into it at a time of the clip, in seconds, seen by a camera, and gives what there is to warn of: a
+    /// pose that would carry something out of range is not taken. Without a camera no figure looks at it.
+    pub fn stand(&self, scene: &mut Scene, time_s: f32, camera: Option<&Camera>) -> Option<String> {
         let clip = self.clip.as_ref();
         let mut pose = clip.map_or_else(Pose::default, |clip| scene.pose_at(clip, time_s));
         if let Some(posture) = &self.posture {
             scene.bend(&mut pose, posture);
+        }
+        pose.look_at = match self.look_at {
+            Some(LookedAt::Place(place)) => Some(place.0),
+            Some(LookedAt::Camera) => camera.map(|camera| camera.eye),
+            None => None,
+        };
+        if pose.look_at.is_some() {
+            let figure = scene.figure.as_ref();
+            let looks = figure.map(Figure::looks).into_iter().flatten().flatten();
+            for look in looks {
+                pose.shares.remove(&look);
+            }
         }
         pose.shares.extend(&self.shares);
         let fault = scene.set_pose(&pose).err()?;
@@ -136,18 +166,18 @@ impl Stance {
     }
 
     /// Where everything in a scene was before a time of the clip, in seconds, as far as a style follows motion; none
-    /// without a clip. The scene stands as at that time, before and after.
+    /// without a clip. The scene stands as at that time, before and after, seen by the same camera.
     pub fn movement(
         &self,
         scene: &mut Scene,
-        time_s: f32,
+        (time_s, camera): (f32, Option<&Camera>),
         style: &Style,
     ) -> Result<Option<Arc<Movement>>, RenderError> {
         if self.clip.is_none() {
             return Ok(None);
         }
         Movement::of_style(scene, (style, self.memory_limit), |scene, before_s| {
-            self.stand(scene, time_s - before_s);
+            self.stand(scene, time_s - before_s, camera);
         })
     }
 }
@@ -161,6 +191,26 @@ pub struct Posed {
     pub movement: Option<Arc<Movement>>,
     /// What there is to warn of.
     pub warnings: Vec<String>,
+    /// How the user has it stand, and when, where it looks different for every camera.
+    before_camera: Option<(Stance, f32)>,
+}
+
+impl Posed {
+    /// Poses the scene for a camera that looks at it, where its figure looks back; gives whether it does.
+    pub fn face(
+        &mut self,
+        scene: &mut Scene,
+        camera: &Camera,
+        style: &Style,
+    ) -> Result<bool, RenderError> {
+        let Some((stance, time_s)) = &self.before_camera else {
+            return Ok(false);
+        };
+        // What there is to warn of was told when it took the pose without a look.
+        let _ = stance.stand(scene, *time_s, Some(camera));
+        self.movement = stance.movement(scene, (*time_s, Some(camera)), style)?;
+        Ok(true)
+    }
 }
 
 /// Poses the scene as the user asked for, in a style that may follow motion; `flows` is whether pictures on its
@@ -181,13 +231,14 @@ pub fn pose(
         warnings.extend(why.filter(|_| !flows || args.time.is_none()));
     }
     let time_s = args.time.unwrap_or(0.0);
-    warnings.extend(stance.stand(scene, time_s));
+    warnings.extend(stance.stand(scene, time_s, None));
 
     // See where everything was.
     Ok(Posed {
         is_posed,
-        movement: stance.movement(scene, time_s, style)?,
+        movement: stance.movement(scene, (time_s, None), style)?,
         warnings,
+        before_camera: stance.follows_camera().then_some((stance, time_s)),
     })
 }
 
@@ -198,7 +249,9 @@ pub fn pose_of_nothing(args: &PoseArguments) -> Result<Vec<String>, Fault> {
     shares_of(&args.expressions, &nothing)?;
     let files = [("--motion", &args.motion), ("--pose", &args.pose)];
     let said = files.into_iter().filter(|(_, file)| file.is_some());
-    let ignored = said.map(|(option, _)| format!("{option} is ignored: there is no scene"));
+    let said = said.map(|(option, _)| option);
+    let said = said.chain(args.look_at.map(|_| "--look-at"));
+    let ignored = said.map(|option| format!("{option} is ignored: there is no scene"));
     Ok(why_at_rest(args, 0, false)
         .into_iter()
         .chain(ignored)
@@ -298,6 +351,24 @@ fn why_at_rest(args: &PoseArguments, clip_count: usize, is_posed: bool) -> Optio
             "the scene rests: it has {count} clips, which --clip and --time play"
         )),
     }
+}
+
+/// Why a figure does not look where it is asked to, or not quite.
+fn why_not_looking(figure: Option<&Figure>) -> Option<&'static str> {
+    let Some(figure) = figure.filter(|figure| figure.can_look()) else {
+        return Some("--look-at is ignored: the scene has no figure with eyes that look");
+    };
+    let by_expressions = figure
+        .look_at
+        .as_ref()
+        .is_some_and(|look| look.eyes == Eyes::Expressions);
+    let is_painted = |number: u32| {
+        let face = figure.expressions.get(number as usize);
+        face.is_some_and(|face| !face.colors.is_empty() || !face.textures.is_empty())
+    };
+    let mut looks = figure.looks().into_iter().flatten();
+    (by_expressions && looks.any(is_painted))
+        .then_some("--look-at moves no textures, which the figure looks by")
 }
 
 /// Names in the order of how much they are like a name.

@@ -23,15 +23,14 @@ use crate::volume::{self, Order};
 use npr_core::camera::Camera;
 use npr_gpu::engine::Engine;
 use npr_render::{
-    Frame, LineModelOptions, Model, Movement, RenderError, Renderer, RendererOptions, Smoke,
-    Subject, facts_of,
+    Frame, LineModelOptions, Model, RenderError, Renderer, RendererOptions, Smoke, Subject,
+    facts_of,
 };
 use npr_scene::{Limits, Scene};
 use npr_stylesheet::{Facts, Occasion, SceneHint, Style};
 use std::borrow::Cow;
 use std::io::Write;
 use std::path::Path;
-use std::sync::Arc;
 
 /// Draws what the user asked for, or prints its style.
 pub fn render(args: &RenderArguments) -> Result<(), Fault> {
@@ -69,9 +68,14 @@ fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Frame>, Fault> {
     let engine = EngineChoice::begin(&job.args.drawing);
     let loaded = load(job, progress)?;
     let pose = &job.args.drawing.pose;
-    let prepared = prepare(job, loaded, Some(pose), progress)?;
-    let seen = prepared.seen()?;
-    let camera = viewpoint::camera(&job.args.drawing.camera, &seen, job.args.drawing.size)?;
+    let mut prepared = prepare(job, loaded, Some(pose), progress)?;
+    let camera = viewpoint::camera(
+        &job.args.drawing.camera,
+        &prepared.seen()?,
+        job.args.drawing.size,
+    )?;
+    let posed = &mut prepared.posed;
+    posed.face(&mut prepared.scene, &camera, &job.look.style)?;
     let options = RendererOptions {
         smoke: prepared.smoke.clone(),
         in_bands: true,
@@ -176,10 +180,8 @@ pub struct Prepared {
     pub smoke: Option<Smoke>,
     /// What the subject was made of, in the pose that is drawn.
     pub scene: Scene,
-    /// Whether that is another pose than the one at rest.
-    is_posed: bool,
-    /// Where everything was before, where lines follow motion.
-    movement: Option<Arc<Movement>>,
+    /// How it came into that pose.
+    posed: Posed,
     /// Seconds after which pictures on surfaces are drawn.
     seconds: f32,
 }
@@ -188,7 +190,7 @@ impl Prepared {
     /// What a camera is placed by.
     pub fn seen(&self) -> Result<Seen<'_>, RenderError> {
         let mut model = Cow::Borrowed(&self.subject.model);
-        if self.is_posed {
+        if self.posed.is_posed {
             model.to_mut().set_pose(&self.scene)?;
         }
         let smoke = self.smoke.clone().unwrap_or_default();
@@ -205,10 +207,10 @@ impl Prepared {
         (style, options): (&Style, &RendererOptions),
     ) -> Result<Renderer<'a>, RenderError> {
         let mut renderer = self.subject.renderer(engine, style, options)?;
-        if self.is_posed {
+        if self.posed.is_posed {
             renderer.set_pose(&self.scene)?;
         }
-        renderer.set_movement(self.movement.clone());
+        renderer.set_movement(self.posed.movement.clone());
         if self.seconds != 0.0 {
             renderer.flow_textures(self.seconds)?;
         }
@@ -272,8 +274,7 @@ pub fn prepare(
         subject,
         smoke,
         scene,
-        is_posed: posed.is_posed,
-        movement: posed.movement,
+        posed,
         seconds,
     })
 }

@@ -103,6 +103,12 @@ impl Bone {
     /// The head, which moves the face.
     pub const HEAD: Self = Self(5);
 
+    /// The left eye.
+    pub const LEFT_EYE: Self = Self(6);
+
+    /// The right eye.
+    pub const RIGHT_EYE: Self = Self(7);
+
     /// All bones, each behind the one that it hangs on.
     pub fn all() -> impl Iterator<Item = Self> {
         (0..BONES.len() as u8).map(Self)
@@ -167,6 +173,8 @@ mod tests {
         }
         assert_eq!(Bone::all().filter(|bone| bone.is_required()).count(), 15);
         assert_eq!([Bone::HIPS, Bone::HEAD].map(Bone::name), ["hips", "head"]);
+        let eyes = [Bone::LEFT_EYE, Bone::RIGHT_EYE].map(Bone::name);
+        assert_eq!(eyes, ["leftEye", "rightEye"]);
         assert_eq!(Bone::named("Hips"), None);
     }
 

@@ -140,26 +140,34 @@ impl Expression {
     }
 }
 
+/// What others leave of expressions that look, 0 to 1, where expressions have shares.
+pub(crate) fn left_of_looks(expressions: &[Expression], shares: &BTreeMap<u32, f32>) -> f32 {
+    left(expressions, &alone(expressions, shares), Kind::Look)
+}
+
+/// How much expressions would show if none overrode another.
+fn alone(expressions: &[Expression], shares: &BTreeMap<u32, f32>) -> Vec<f32> {
+    let share = |number: u32| shares.get(&number).copied().unwrap_or(0.0);
+    let all = (0u32..).zip(expressions);
+    all.map(|(number, expression)| expression.shown(share(number)))
+        .collect()
+}
+
+/// What expressions that would show so much alone leave of a kind.
+fn left(expressions: &[Expression], alone: &[f32], kind: Kind) -> f32 {
+    let all = expressions.iter().zip(alone);
+    let taken = all.map(|(expression, shown)| expression.taken(kind, *shown));
+    (1.0 - taken.sum::<f32>()).max(0.0)
+}
+
 /// How much each of some expressions shows, 0 to 1, where they have shares, by number; the others have 0.
 ///
 /// What overrides a kind takes from all of it, from itself too where it is of that kind, and adds up. A binary one
 /// that others override at all does not show. So does three-vrm.
 pub(crate) fn shown(expressions: &[Expression], shares: &BTreeMap<u32, f32>) -> Vec<f32> {
-    // Find how much they would show alone.
-    let share = |number: u32| shares.get(&number).copied().unwrap_or(0.0);
-    let alone: Vec<f32> = (0u32..)
-        .zip(expressions)
-        .map(|(number, expression)| expression.shown(share(number)))
-        .collect();
-
     // Take from each what others override.
-    let left = |kind| {
-        let all = expressions.iter().zip(&alone);
-        let taken: f32 = all
-            .map(|(expression, shown)| expression.taken(kind, *shown))
-            .sum();
-        (1.0 - taken).max(0.0)
-    };
+    let alone = alone(expressions, shares);
+    let left = |kind| left(expressions, &alone, kind);
     let [blinks, looks, mouths] = [Kind::Blink, Kind::Look, Kind::Mouth].map(left);
     let of = |(expression, alone): (&Expression, &f32)| {
         let left = match Kind::of(&expression.name) {

@@ -2,6 +2,7 @@
 
 use crate::bone::Bone;
 use crate::expression::{self, Expression};
+use crate::look_at::LookAt;
 use std::collections::BTreeMap;
 
 /// What VRM says of an avatar, or of a motion for avatars.
@@ -13,6 +14,8 @@ pub struct Figure {
     pub expressions: Vec<Expression>,
     /// Of a motion: expressions by name, each with the node whose way along x is its share.
     pub share_nodes: Vec<(String, u32)>,
+    /// How it looks somewhere; none where it cannot.
+    pub look_at: Option<LookAt>,
     /// Whether a motion says where to look.
     pub has_looks: bool,
 }

@@ -12,6 +12,7 @@ pub(crate) mod document;
 pub(crate) mod error;
 pub(crate) mod figure;
 pub(crate) mod light;
+pub(crate) mod look_at;
 pub(crate) mod material;
 pub(crate) mod mesh;
 pub(crate) mod primitive;

@@ -26,6 +26,9 @@ pub struct Pose {
     /// Shares of expressions of the scene's figure, 0 to 1, by number. Where there are any, expressions alone decide on
     /// the morphs that any of them binds, and `weights` on the others.
     pub shares: BTreeMap<u32, f32>,
+    /// The point of the world that the scene's figure looks at; without one its eyes stay as they are. Expressions that
+    /// look and have no share get one.
+    pub look_at: Option<[f32; 3]>,
 }
 
 /// Why a scene cannot be put into a pose.
@@ -102,9 +105,12 @@ impl Scene {
         Err(PoseError::OutOfRange { node })
     }
 
-    /// A pose with what follows from it: the turns that constraints give.
+    /// A pose with what follows from it: where eyes look, and then the turns that constraints give.
     fn followed<'a>(&self, pose: &'a Pose) -> Cow<'a, Pose> {
         let mut pose = Cow::Borrowed(pose);
+        if pose.look_at.is_some() {
+            self.look(pose.to_mut());
+        }
         if !self.constraints.is_empty() {
             self.constrain(pose.to_mut());
         }

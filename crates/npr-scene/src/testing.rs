@@ -4,7 +4,7 @@ mod figures;
 mod puppets;
 
 pub use figures::{BODY_BONES, Vrm, avatar, gesture, humanoid, node_of};
-pub use puppets::{Eyes, puppet};
+pub use puppets::puppet;
 
 use crate::matrix;
 use crate::{

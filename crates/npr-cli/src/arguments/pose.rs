@@ -1,5 +1,6 @@
 //! The arguments about how a scene stands.
 
+use super::point::Point;
 use clap::Args;
 use std::path::PathBuf;
 
@@ -25,6 +26,19 @@ pub struct PoseArguments {
     /// An expression of a VRM by its name, and how much it shows, 0 to 1 [default share: 1]; repeatable.
     #[arg(long = "expression", value_name = "NAME[=SHARE]", value_parser = expression)]
     pub expressions: Vec<ExpressionShare>,
+    /// What the figure of a VRM looks at: a point of the world, or the eye of the camera, which it follows in films
+    /// [default: nothing; the eyes stay as they are].
+    #[arg(long, value_name = "X,Y,Z|camera", allow_hyphen_values = true, value_parser = looked_at)]
+    pub look_at: Option<LookedAt>,
+}
+
+/// What a figure looks at.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum LookedAt {
+    /// The eye of the camera.
+    Camera,
+    /// A point of the world.
+    Place(Point),
 }
 
 /// An expression, and how much of it shows.
@@ -41,6 +55,17 @@ fn time(text: &str) -> Result<f32, String> {
     match text.parse::<f32>() {
         Ok(seconds) if seconds.is_finite() => Ok(seconds),
         _ => Err("must be a number of seconds".to_owned()),
+    }
+}
+
+/// Parses what a figure looks at.
+fn looked_at(text: &str) -> Result<LookedAt, String> {
+    match text {
+        "camera" => Ok(LookedAt::Camera),
+        _ => text
+            .parse()
+            .map(LookedAt::Place)
+            .map_err(|fault: &str| format!("{fault}, or 'camera'")),
     }
 }
 
@@ -68,6 +93,17 @@ mod tests {
         assert_eq!((time("0.25"), time("-3")), (Ok(0.25), Ok(-3.0)));
         for text in ["nan", "inf", "-inf", "1e99", "soon", ""] {
             assert!(time(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_figure_looks_at_a_point_or_the_camera() {
+        assert_eq!(looked_at("camera"), Ok(LookedAt::Camera));
+        let place = LookedAt::Place(Point([0.0, 1.5, -3.0]));
+        assert_eq!(looked_at("0,1.5,-3"), Ok(place));
+        for text in ["", "Camera", "0,1", "0,nan,1", "head"] {
+            let fault = looked_at(text).expect_err("nothing to look at");
+            assert!(fault.ends_with("or 'camera'"), "{fault}");
         }
     }
 

@@ -1,7 +1,8 @@
 //! Figures: expressions, poses and motions by their names and files, and what is said of them.
 
 use crate::workplace::{Outcome, Workplace};
-use npr_scene::testing::{Vrm, avatar, gesture, glb, picture, wing};
+use npr_scene::Eyes;
+use npr_scene::testing::{Vrm, avatar, gesture, glb, picture, puppet, wing};
 
 const BOW: &[u8] = br#"{"pose":{"spine":{"rotation":[0.5,0,0,0.8]}}}"#;
 
@@ -219,6 +220,105 @@ fn an_expression_changes_colours_too() {
         assert_eq!(red(scene, &["--expression", "aa"]), 0);
         assert!(red(scene, &["--expression", "happy"]) > 20);
     }
+}
+
+#[test]
+fn figures_look_at_points_and_at_the_camera() {
+    let place = place();
+    let view = ["--eye", "0.4,1.8,1.2", "--target", "0,1.6,0"];
+    for eyes in [Eyes::Bones, Eyes::Expressions] {
+        place.put("zero.vrm", &puppet(Vrm::Zero, eyes));
+        place.put("one.vrm", &puppet(Vrm::One, eyes));
+        for command in ["render", "lines"] {
+            let look = |scene, more: &[&str]| {
+                let (picture, said) = drawn(&place, command, scene, &[&view, more].concat());
+                assert_eq!(said, "", "{more:?}");
+                picture
+            };
+            let rest = look("one.vrm", &[]);
+            let aside = look("one.vrm", &["--look-at", "3,1.6,1"]);
+            let back = look("one.vrm", &["--look-at", "0.4,1.8,1.2"]);
+            assert!(aside != rest && back != rest && aside != back);
+            assert_eq!(look("one.vrm", &["--look-at", "camera"]), back);
+            assert_eq!(look("zero.vrm", &["--look-at", "camera"]), back);
+
+            // What is said of an expression counts.
+            if eyes == Eyes::Expressions {
+                let mut said = vec!["--look-at", "camera"];
+                for none in ["lookLeft=0", "lookRight=0", "lookUp=0", "lookDown=0"] {
+                    said.extend(["--expression", none]);
+                }
+                assert_eq!(look("one.vrm", &said), rest);
+            }
+        }
+    }
+}
+
+#[test]
+fn eyes_follow_the_camera_of_a_film() {
+    let place = place();
+    place.put("one.vrm", &puppet(Vrm::One, Eyes::Expressions));
+    let film = |name: &str, more: &[&str]| {
+        let file = format!("{name}_#.png");
+        let line = [
+            "animate",
+            "one.vrm",
+            "-o",
+            &file,
+            "--size",
+            "64x96",
+            "--backend",
+            "cpu",
+        ];
+        let turn = ["--turntable", "--length", "4"];
+        let outcome = place.npr(&[&line, &turn[..], more].concat());
+        assert_eq!(
+            (outcome.code, outcome.stderr.as_str()),
+            (Some(0), ""),
+            "{more:?}"
+        );
+        let frames = (0..4).filter(|number| place.path(&format!("{name}_{number}.png")).exists());
+        let frames = frames.map(|number| place.get(&format!("{name}_{number}.png")));
+        frames.collect::<Vec<_>>()
+    };
+    let still = film("a", &[]);
+    let looking = film("b", &["--look-at", "camera"]);
+    assert_eq!((still.len(), looking.len()), (4, 4));
+    assert_eq!(
+        film("c", &["--look-at", "camera", "--frames", "2..3"]),
+        looking[2..]
+    );
+    let moved = still.iter().zip(&looking).filter(|(a, b)| a != b).count();
+    assert!(moved >= 2, "{moved}");
+
+    // While a clip plays, too.
+    let wave = ["--motion", "wave.vrma", "--frames", "2..3"];
+    let plain = film("d", &wave);
+    assert_ne!(
+        film("e", &[&wave[..], &["--look-at", "camera"]].concat()),
+        plain
+    );
+}
+
+#[test]
+fn who_cannot_look_is_told_and_nonsense_is_refused() {
+    let place = place();
+    let told = "npr: warning: --look-at is ignored: the scene has no figure with eyes that look";
+    for scene in ["one.vrm", "scene.obj"] {
+        let (rest, before) = drawn(&place, "render", scene, &[]);
+        let (picture, said) = drawn(&place, "render", scene, &["--look-at", "camera"]);
+        assert_eq!((picture, before.as_str(), said.as_str()), (rest, "", told));
+    }
+    for nonsense in ["here", "1,2", "nan,0,0"] {
+        let line = ["render", "one.vrm", "--look-at", nonsense];
+        place.npr(&line).assert_fault(2, "or 'camera'");
+    }
+    let outcome = place.npr(&["smoke", "puff", "--size", "32x32", "--look-at", "camera"]);
+    assert!(
+        outcome
+            .stderr
+            .contains("--look-at is ignored: there is no scene")
+    );
 }
 
 #[test]

@@ -375,6 +375,21 @@ const DRAWINGS: &[Case] = &[
         Acts,
     ),
     (
+        &["render", "puppet.vrm", "-o", "a.png"],
+        &["--look-at", "camera"],
+        Acts,
+    ),
+    (
+        &["lines", "puppet.vrm", "-o", "a.svg"],
+        &["--look-at", "4,1,2"],
+        Acts,
+    ),
+    (
+        &["lines", "avatar.vrm", "-o", "a.svg"],
+        &["--look-at", "camera"],
+        Told("--look-at is ignored: the scene has no figure"),
+    ),
+    (
         &[
             "render",
             "avatar.vrm",
@@ -514,6 +529,20 @@ const WAVING: &[&str] = &[
 const ANIMATIONS: &[Case] = &[
     (STANDING, &["--expression", "happy"], Acts),
     (STANDING, &["--pose", "bow.json"], Acts),
+    (
+        &[
+            "animate",
+            "puppet.vrm",
+            "--orbit",
+            "40",
+            "--frames",
+            "2",
+            "-o",
+            "a.png",
+        ],
+        &["--look-at", "camera"],
+        Acts,
+    ),
     (STANDING, &["--motion", "wave.vrma"], Acts),
     (WAVING, &["--expression", "happy=0"], Acts),
     (WAVING, &["--pose", "bow.json"], Acts),
@@ -744,6 +773,9 @@ fn put_figures(place: &Workplace) {
         "avatar.vrm",
         &npr_scene::testing::avatar(npr_scene::testing::Vrm::One),
     );
+    let eyes = npr_scene::Eyes::Expressions;
+    let puppet = npr_scene::testing::puppet(npr_scene::testing::Vrm::One, eyes);
+    place.put("puppet.vrm", &puppet);
     place.put("wave.vrma", &npr_scene::testing::gesture());
     place.put(
         "bow.json",

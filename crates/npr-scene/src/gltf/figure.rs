@@ -12,6 +12,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use ::gltf::json::{Index, Root};
 use serde_json::Value;
 
+use super::look_at;
 use super::tree::Tree;
 use super::vrm::extension;
 use crate::bone::Bone;
@@ -49,9 +50,11 @@ pub(crate) fn read(
         reader.bones_of_1(vrm, "VRM 1.0");
         reader.note_missing_bones(vrm);
         reader.expressions_of_1(vrm)?;
+        reader.figure.look_at = look_at::of_1(vrm, reader.loading)?;
     } else if let Some(vrm) = extension(root, "VRM") {
         reader.bones_of_0(vrm);
         reader.expressions_of_0(vrm)?;
+        reader.figure.look_at = look_at::of_0(vrm, reader.loading)?;
     } else if let Some(motion) = extension(root, "VRMC_vrm_animation") {
         reader.bones_of_1(motion, "a VRM animation");
         reader.shares(motion)?;

@@ -1,7 +1,7 @@
 //! VRM avatars: glTF files with a humanoid, expressions and toon materials.
 //!
-//! Geometry and base materials are plain glTF; bones and expressions are read by `figure.rs`, toon
-//! materials by `toon.rs`, the rest is not.
+//! Geometry and base materials are plain glTF; bones and expressions are read by `figure.rs`, looks by
+//! `look_at.rs`, toon materials by `toon.rs`, the rest is not.
 #![deny(
     clippy::unwrap_used,
     clippy::expect_used,
@@ -53,12 +53,10 @@ fn turn_values<const N: usize>(channel: &mut Channel, turn: impl Fn([f32; N]) ->
 
 /// Says which data of an avatar is ignored.
 pub(crate) fn note_what_is_ignored(root: &Root, loading: &mut Loading) {
-    for (name, version) in [("VRM", "VRM 0.x"), ("VRMC_vrm", "VRM 1.0")] {
-        if extension(root, name).is_some() {
-            loading
-                .notices
-                .add(format!("look-at and springs of {version} are ignored"));
-        }
+    let springs =
+        extension(root, "VRM").and_then(|vrm| vrm.pointer("/secondaryAnimation/boneGroups/0"));
+    if springs.is_some() {
+        loading.notices.add("springs of VRM 0.x are ignored");
     }
 }
 

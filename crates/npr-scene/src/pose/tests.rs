@@ -271,6 +271,7 @@ fn what_the_scene_lacks_is_left_alone() {
         transforms: BTreeMap::from([(0, moved), (7, moved)]),
         weights: BTreeMap::from([(9, vec![1.0])]),
         shares: BTreeMap::from([(0, 1.0)]),
+        ..Pose::default()
     };
     scene.set_pose(&pose).expect("nothing to do");
     assert_eq!(scene, before);

@@ -2,9 +2,9 @@
 
 use super::figures::{BODY, Vrm};
 use super::glb;
-use crate::Transform;
 use crate::quaternion;
 use crate::transform::half_turned_move;
+use crate::{Eyes, Transform};
 
 /// A node of the puppet beside the bones of its body: its name, what it hangs on, where it rests, how it is turned.
 type Part = (&'static str, &'static str, [f32; 3], [f32; 4]);
@@ -63,15 +63,6 @@ const DRAWN: [&str; 10] = [
     "leftEye", "rightEye", "hair 1", "hair 2", "skirt 1", "skirt 2", "twist", "sleeve", "echo",
     "call",
 ];
-
-/// How a puppet looks somewhere.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Eyes {
-    /// Bones of the eyes are turned.
-    Bones,
-    /// Expressions move a morph each.
-    Expressions,
-}
 
 /// A VRM file of the humanoid with eyes, hair, a skirt and nodes that follow others, drawn by small bodies. Both versions
 /// are alike, but for a tail with a capsule and a centre, which swings in VRM 1.0 alone.

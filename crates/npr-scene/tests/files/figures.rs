@@ -26,11 +26,11 @@ fn load(bytes: &[u8]) -> Scene {
     load_within(bytes, &Limits::default()).expect("a file that can be drawn")
 }
 
-fn list(value: &Value) -> &[Value] {
+pub fn list(value: &Value) -> &[Value] {
     value.as_array().expect("a list")
 }
 
-fn number(value: &Value) -> f64 {
+pub fn number(value: &Value) -> f64 {
     value.as_f64().expect("a number")
 }
 

@@ -1,10 +1,10 @@
 //! Damaged files never panic, and what still loads is sound.
 
 use npr_scene::testing::{
-    Eyes, Sheet, Vrm, avatar, gesture, lines_glb, puppet, skinned_glb, skinned_lines_glb,
-    sparse_glb, wing,
+    Sheet, Vrm, avatar, gesture, lines_glb, puppet, skinned_glb, skinned_lines_glb, sparse_glb,
+    wing,
 };
-use npr_scene::{Bone, Format, Limits, MemoryResources, Pose, Posture, Scene, load_bytes};
+use npr_scene::{Bone, Eyes, Format, Limits, MemoryResources, Pose, Posture, Scene, load_bytes};
 use proptest::prelude::*;
 
 /// What happens to a few bytes of a file.
