@@ -17,6 +17,7 @@ const COVER_ROOM: f32 = 0.01;
 pub(crate) struct Seen<'a> {
     pub view: &'a View,
     clip_from_world: Mat4,
+    world_from_clip: Mat4,
     /// Pixels per unit of the world in the middle of the scene.
     pub world_px: f32,
     window: Window,
@@ -46,9 +47,11 @@ impl<'a> Seen<'a> {
         let longer = size[0].max(size[1]).max(1) as f32;
         let side = |px: u32| ((px as f32 * GRID_PX as f32 / longer).round() as u32).max(1);
         let size = size.map(side);
+        let clip_from_world = Mat4::from_cols_array_2d(&view.clip_from_world);
         let mut seen = Self {
             view,
-            clip_from_world: Mat4::from_cols_array_2d(&view.clip_from_world),
+            clip_from_world,
+            world_from_clip: clip_from_world.inverse(),
             world_px: pixels_per_unit(view, movement),
             window: Window::over(view.frame_px, [0.0; 2], view.frame_px, size),
             size,
@@ -155,10 +158,8 @@ impl<'a> Seen<'a> {
     /// The place of the world at one of the picture and a reversed depth.
     pub fn world_at(&self, place: Vec2, reversed: f32) -> Vec3 {
         let [x, y] = self.view.ndc_at(place.to_array());
-        let world = self
-            .clip_from_world
-            .inverse()
-            .project_point3(Vec3::new(x, y, reversed));
+        let place = Vec3::new(x, y, reversed);
+        let world = self.world_from_clip.project_point3(place);
         if world.is_finite() { world } else { Vec3::ZERO }
     }
 
