@@ -7,7 +7,9 @@
 //!
 //! Nothing here knows how strokes are made: they are read as any program would export them.
 
+mod cause;
 pub mod causes;
+mod count;
 pub mod film;
 pub mod near;
 pub mod skin;

@@ -9,6 +9,9 @@ use std::collections::BTreeMap;
 
 use npr_vector::mesh_lines::{DEPTH_SHARE, FACING_PX, STRAIGHT_COS, TOUCHING_PX};
 
+pub use super::cause::{Absence, Joint, Loss, Pop, Rule};
+use super::count::add;
+pub use super::count::{Count, Counts};
 use super::near::distance;
 use super::tally::{JUMP_PX, MATCH_PX, Match, Pair, dot, voted_slides};
 use super::traced::{Line, Sample, Traced};
@@ -31,107 +34,6 @@ pub struct Stages {
     pub with_stubs: Traced,
     /// What is drawn.
     pub drawn: Traced,
-}
-
-/// Why a line is not where it was.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Absence {
-    /// Something hides it.
-    Hidden,
-    /// The surface is seen there, and has no line.
-    NoLine,
-    /// It is left out as a stub.
-    Stub,
-    /// It is left out as a double or a shred.
-    Suppressed,
-}
-
-/// What parts two strokes in a frame that are one in the frame beside it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Joint {
-    /// Raw lines end there in both frames, and are joined in one.
-    Rule,
-    /// In one frame the raw line changes its kind or surface.
-    Kind,
-    /// In one frame a part of the raw line is hidden, or two raw lines end there.
-    Gap,
-    /// In neither frame does a raw line end there: it is cut on the way.
-    Cut,
-}
-
-/// Why ends that meet are joined in one of two frames alone, by what is drawn in the frame that parts them.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Rule {
-    /// One lies deeper than the other by more than lines may that are joined.
-    Depth,
-    /// They lie too far apart in the picture.
-    Apart,
-    /// They do not go on straight enough.
-    Turn,
-    /// What lies before the one goes on another way.
-    Partner,
-    /// Nothing of all that: a third end was there, or they moved since.
-    Other,
-}
-
-/// Why a texture pops.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Pop {
-    /// The stroke runs the other way.
-    Reversed,
-    /// A stroke of another kind or surface lies there.
-    OtherLine,
-    /// A ring starts elsewhere.
-    Head,
-    /// A ring opened, or a line closed to a ring.
-    Ring(Joint),
-    /// What lies before its start is another stroke in one of both frames, although raw lines end there in both.
-    Rule(Rule),
-    /// What lies before its start is another stroke in one of both frames.
-    Joint(Joint),
-    /// What lies before its start is not drawn in one of both frames.
-    Start(Absence),
-    /// Its start is where it was, and the way from there is longer or shorter.
-    Stretched,
-    /// Neither start lies on the other stroke.
-    Elsewhere,
-}
-
-/// Why an end is lost.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Loss {
-    /// The stroke goes on there.
-    Joint(Joint),
-    /// The line is not drawn up to there any more.
-    Absence(Absence),
-}
-
-/// How often something happened, and where most of it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Count {
-    /// Samples or ends.
-    pub count: usize,
-    /// Events that they belong to.
-    pub events: usize,
-    /// The largest event: samples or ends, number of the pair of frames, place in the later one.
-    pub largest: (usize, usize, [f64; 2]),
-}
-
-/// What happened, by cause.
-pub type Counts<T> = BTreeMap<T, Count>;
-
-/// Adds an event of `count` samples or ends.
-fn add<T: Ord>(counts: &mut Counts<T>, cause: T, count: usize, (pair, place): (usize, [f64; 2])) {
-    let entry = counts.entry(cause).or_insert(Count {
-        count: 0,
-        events: 0,
-        largest: (0, 0, [0.0; 2]),
-    });
-    entry.count += count;
-    entry.events += 1;
-    if count > entry.largest.0 {
-        entry.largest = (count, pair, place);
-    }
 }
 
 /// The causes of a sequence.
