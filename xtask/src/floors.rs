@@ -35,7 +35,7 @@ impl Member {
 }
 
 /// Every crate, each below those that import it. Tests and benches may import any crate that is listed before theirs.
-const MEMBERS: [Member; 17] = [
+const MEMBERS: [Member; 18] = [
     // Floor 0: what everything stands on.
     Member::light("npr-core", &[]),
     Member::light("npr-shaders", &[]),
@@ -81,7 +81,8 @@ const MEMBERS: [Member; 17] = [
             "npr-vector",
         ],
     ),
-    // Floor 3: the command.
+    // Floor 3: the window, and the command, which may open it.
+    Member::heavy("npr-view", &["npr-core", "npr-stylesheet"]),
     Member::heavy(
         "npr-cli",
         &[
@@ -95,6 +96,7 @@ const MEMBERS: [Member; 17] = [
             "npr-stylesheet",
             "npr-trace",
             "npr-vdb",
+            "npr-view",
         ],
     ),
     // Suites import whatever they test.

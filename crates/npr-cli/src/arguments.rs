@@ -18,6 +18,7 @@ mod size;
 mod smoke;
 mod trace;
 mod trace_form;
+mod view;
 mod volume;
 
 pub use animate::{AnimateArguments, FilmArguments};
@@ -39,6 +40,7 @@ pub use render::RenderArguments;
 pub use size::Size;
 pub use smoke::SmokeArguments;
 pub use trace::{TraceArguments, TracedForm, TracedFormat};
+pub use view::{Said, ViewArguments};
 pub use volume::{PlacedVolume, VolumeArguments, VolumeUp};
 
 use clap::{Args, Parser, Subcommand};
@@ -89,6 +91,11 @@ pub enum Command {
     /// Without options, `npr outline hero.png street.png -o out.png` draws a black line of one pixel around what is
     /// opaque in hero.png, before street.png, and changes it where it would not be seen.
     Outline(Box<Deferred<OutlineArguments>>),
+    /// Open a window with a picture of a scene that the mouse turns, and a control for every key of its style.
+    ///
+    /// Without options, `npr view model.glb` shows the model as `npr render model.glb` draws it. The window saves
+    /// style and picture, and gives the command line that draws what it shows. It takes a build with the feature view.
+    View(Box<Deferred<Said<ViewArguments>>>),
     /// Tell what is in a file, what of it is drawn, and what is ignored and why.
     Info(Deferred<InfoArguments>),
     /// List, show and check styles.
@@ -136,6 +143,7 @@ impl Command {
             Self::Lines(arguments) => arguments.0.drawing.backend,
             Self::Animate(arguments) => arguments.0.drawing.backend,
             Self::Smoke(arguments) => arguments.0.drawing.backend,
+            Self::View(arguments) => arguments.0.args.drawing.backend,
             Self::Doctor { .. } => return true,
             _ => return false,
         };

@@ -58,8 +58,15 @@ mod styles;
 mod target;
 mod timings;
 mod trace;
+#[cfg(any(test, feature = "view"))]
+mod view;
 mod viewpoint;
 mod volume;
+#[cfg(feature = "view")]
+mod window;
+#[cfg(not(feature = "view"))]
+#[path = "no_window.rs"]
+mod window;
 
 use arguments::{Arguments, Command};
 use clap::{CommandFactory, Parser};
@@ -126,6 +133,7 @@ fn obey(command: Command) -> Result<(), Fault> {
         Command::Smoke(arguments) => smoke::smoke(&arguments.0),
         Command::Trace(arguments) => trace::trace(&arguments.0),
         Command::Outline(arguments) => outline::outline(&arguments.0),
+        Command::View(arguments) => window::view(&arguments.0),
         Command::Info(arguments) => info::info(&arguments.0),
         Command::Styles { command } => styles::styles(&command),
         Command::Doctor { json } => doctor::doctor(json),

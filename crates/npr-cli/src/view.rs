@@ -1,0 +1,179 @@
+//! `npr view`: a studio whose pictures are drawn as `npr render` draws them.
+
+mod painter;
+mod save;
+
+use crate::arguments::{RenderArguments, Said, ViewArguments};
+use crate::fault::{Exit, Fault};
+use crate::message::quoted;
+use crate::style_source::StyleSource;
+use npr_stylesheet::{DEFAULT_PRESET, Stated};
+use npr_view::{Host, News, Order, Sheet, Studio, Take, shell_line};
+use painter::{Ask, Painter};
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
+use std::thread;
+
+/// Options that the studio says itself.
+const OWN_OPTIONS: [&str; 7] = [
+    "style",
+    "overrides",
+    "background",
+    "size",
+    "quiet",
+    "timings",
+    "dump_style",
+];
+
+/// Options that say where the camera is.
+const CAMERA_OPTIONS: [&str; 7] = ["eye", "target", "up", "fov", "view", "ortho", "camera"];
+
+/// The host of a studio: it reads files, and lets a painter draw on a thread of its own.
+pub struct Desk {
+    said: Said<ViewArguments>,
+    scene: PathBuf,
+    asks: Sender<Ask>,
+    news: Receiver<News>,
+    /// News that the desk has itself.
+    own: Vec<News>,
+    /// Whether it was told that the painter has ended.
+    has_ended: bool,
+}
+
+/// Refuses a style that cannot be read, before there is a window.
+pub fn check(args: &ViewArguments) -> Result<(), Fault> {
+    sheet_of(args).map(|_| ())
+}
+
+/// The studio of a command line, drawn by a painter that calls `wake` when it has news.
+pub fn studio(said: &Said<ViewArguments>, wake: Box<dyn Fn() + Send>) -> Result<Studio, Fault> {
+    let sheet = sheet_of(&said.args)?;
+    let is_sized = said.options.iter().any(|(id, _)| id == "size");
+    let size = said.args.drawing.size;
+    let size = is_sized.then_some([size.width, size.height]);
+    Ok(Studio::new(sheet, size, Box::new(Desk::new(said, wake)?)))
+}
+
+/// The style that a command line asks for, with its overrides.
+fn sheet_of(args: &ViewArguments) -> Result<Sheet, Fault> {
+    let look = render_arguments(args, &args.scene).look();
+    let name = look.style.as_deref().unwrap_or(DEFAULT_PRESET);
+    let stated = StyleSource::of(Some(name)).load(args.drawing.allow_external.as_deref())?;
+    let mut overrides = look.overrides.clone();
+    let background = look.background.as_ref();
+    overrides.extend(background.map(|background| format!("background={background}")));
+    Sheet::new(name, stated, &overrides)
+        .map_err(|error| Fault::new(Exit::Usage, format!("--set: {error}")))
+}
+
+/// The arguments of `npr render` that draw the same.
+fn render_arguments(args: &ViewArguments, scene: &Path) -> RenderArguments {
+    RenderArguments {
+        scene: Some(scene.to_owned()),
+        output: None,
+        enlarge: 1,
+        debug_layer: None,
+        drawing: args.drawing.clone(),
+        cache: args.cache.clone(),
+    }
+}
+
+impl Desk {
+    /// A desk with a painter that has opened the scene of a command line. `wake` is called when there are news.
+    fn new(said: &Said<ViewArguments>, wake: Box<dyn Fn() + Send>) -> Result<Self, Fault> {
+        let (asks, of_desk) = channel();
+        let (to_desk, news) = channel();
+        let painter = Painter::new(said.args.clone(), of_desk, to_desk, wake);
+        thread::Builder::new()
+            .name("painter".to_owned())
+            .spawn(move || painter.work())?;
+        Ok(Self {
+            said: said.clone(),
+            scene: said.args.scene.clone(),
+            asks,
+            news,
+            own: Vec::new(),
+            has_ended: false,
+        })
+    }
+
+    /// The words of a command line that draws the picture of an order.
+    fn words(&self, order: &Order) -> Vec<String> {
+        let scene = self.scene.to_string_lossy().into_owned();
+        let mut words = ["npr", "render"].map(str::to_owned).to_vec();
+        words.push(scene);
+        words.extend(order.options());
+        let is_placed = order.viewpoint.is_some();
+        for (id, said) in &self.said.options {
+            let is_own = OWN_OPTIONS.contains(&id.as_str());
+            if !is_own && !(is_placed && CAMERA_OPTIONS.contains(&id.as_str())) {
+                words.extend_from_slice(said);
+            }
+        }
+        words
+    }
+
+    fn ask(&mut self, ask: Ask) {
+        // A painter that has ended is told of with the news.
+        let _ = self.asks.send(ask);
+    }
+}
+
+impl Host for Desk {
+    fn style(&mut self, name: &str) -> Result<Stated, String> {
+        let external = self.said.args.drawing.allow_external.as_deref();
+        StyleSource::of(Some(name))
+            .load(external)
+            .map_err(|fault| fault.message)
+    }
+
+    fn open(&mut self, path: &str) {
+        self.ask(Ask::Open(PathBuf::from(path)));
+    }
+
+    fn draw(&mut self, order: Order) {
+        self.ask(Ask::Draw(order));
+    }
+
+    fn news(&mut self) -> Vec<News> {
+        let mut all = std::mem::take(&mut self.own);
+        loop {
+            match self.news.try_recv() {
+                Ok(News::Scene(path)) => {
+                    self.scene = PathBuf::from(&path);
+                    all.push(News::Scene(path));
+                }
+                Ok(news) => all.push(news),
+                Err(TryRecvError::Empty) => return all,
+                Err(TryRecvError::Disconnected) => {
+                    if !self.has_ended {
+                        let text = "drawing has stopped for good: save the style and start again";
+                        all.push(News::Fault(text.to_owned()));
+                        self.has_ended = true;
+                    }
+                    return all;
+                }
+            }
+        }
+    }
+
+    fn command(&self, order: &Order) -> String {
+        shell_line(&self.words(order))
+    }
+
+    fn save(&mut self, take: Take, sheet: &Sheet, order: &Order) {
+        match take {
+            Take::Style => {
+                let saved = save::style(&self.scene, sheet);
+                self.own.push(match saved {
+                    Ok(path) => News::Done(format!("{} holds the style", quoted(&path))),
+                    Err(fault) => News::Fault(fault.message),
+                });
+            }
+            Take::Png | Take::Svg => self.ask(Ask::Save(take, order.clone())),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,409 @@
+//! The thread that draws what a studio shows.
+
+use super::render_arguments;
+use super::save;
+use crate::arguments::{Backend, CameraArguments, Point, RenderArguments, Size, ViewArguments};
+use crate::device_choice::DeviceChoice;
+use crate::fault::{Exit, Fault};
+use crate::hardware;
+use crate::job::{Job, PictureFormat};
+use crate::message::quoted;
+use crate::output::Output;
+use crate::pose;
+use crate::progress::Progress;
+use crate::render::{self, Prepared};
+use crate::source::{Loaded, Source};
+use crate::target::Target;
+use crate::viewpoint::{self, Viewed};
+use npr_core::camera::{Camera, Projection};
+use npr_gpu::engine::Engine;
+use npr_gpu::processor::Processor;
+use npr_render::{Renderer, RendererOptions};
+use npr_stylesheet::Style;
+use npr_view::{News, Order, Picture, Take, Viewpoint};
+use std::cell::{Cell, RefCell};
+use std::collections::VecDeque;
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
+use std::time::{Duration, Instant, SystemTime};
+
+/// Time between two looks at the files that a picture is made from.
+const LOOK: Duration = Duration::from_millis(500);
+
+/// Renderers that are kept at a time: one of drafts and one of full pictures.
+const KEPT: usize = 2;
+
+/// What a painter is asked for.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Ask {
+    /// Draw a picture.
+    Draw(Order),
+    /// Open a scene.
+    Open(PathBuf),
+    /// Write the picture of an order, or its lines, into a file.
+    Save(Take, Order),
+    /// Nobody asks any more.
+    End,
+}
+
+/// Draws pictures one after the other, on a thread of its own.
+pub struct Painter {
+    args: ViewArguments,
+    asks: Receiver<Ask>,
+    news: Sender<News>,
+    wake: Box<dyn Fn() + Send>,
+    /// What was asked for and is still to be done.
+    queue: RefCell<VecDeque<Ask>>,
+    /// The files that scene and style are made from, with the time of their last change.
+    scene_files: RefCell<Vec<Watched>>,
+    style_files: RefCell<Vec<Watched>>,
+    /// Whether files of the style have changed since it was read.
+    is_stale: Cell<bool>,
+    scene: RefCell<PathBuf>,
+}
+
+/// A file and when it changed last; `None` where there is none.
+type Watched = (PathBuf, Option<SystemTime>);
+
+/// The arguments of `npr render` that draw an order.
+pub fn order_arguments(args: &ViewArguments, scene: &Path, order: &Order) -> RenderArguments {
+    let mut args = render_arguments(args, scene);
+    let drawing = &mut args.drawing;
+    drawing.look.style = Some(order.style.clone());
+    drawing.look.overrides.clone_from(&order.overrides);
+    drawing.look.background = None;
+    drawing.look.dump_style = false;
+    let [width, height] = order.size;
+    drawing.size = Size { width, height };
+    drawing.quiet = true;
+    drawing.timings = None;
+    if let Some(point) = &order.viewpoint {
+        drawing.camera = CameraArguments {
+            eye: Some(Point(point.eye)),
+            target: Some(Point(point.target)),
+            up: Some(Point(point.up)),
+            fov: Some(point.fov_deg),
+            ortho: point.is_parallel,
+            ..CameraArguments::default()
+        };
+    }
+    args
+}
+
+impl Painter {
+    /// A painter of the scene that arguments name, which calls `wake` after each of its news.
+    pub fn new(
+        args: ViewArguments,
+        asks: Receiver<Ask>,
+        news: Sender<News>,
+        wake: Box<dyn Fn() + Send>,
+    ) -> Self {
+        let first = Ask::Open(args.scene.clone());
+        Self {
+            scene: RefCell::new(args.scene.clone()),
+            args,
+            asks,
+            news,
+            wake,
+            queue: RefCell::new(VecDeque::from([first])),
+            scene_files: RefCell::default(),
+            style_files: RefCell::default(),
+            is_stale: Cell::new(false),
+        }
+    }
+
+    /// Does what is asked for until nobody asks any more.
+    pub fn work(&self) {
+        let mut engine = match self.engine() {
+            Ok(engine) => engine,
+            Err(fault) => {
+                self.tell(News::Fault(fault.message));
+                Box::new(Processor)
+            }
+        };
+        let mut loaded: Option<Loaded> = None;
+        let mut ask = self.next();
+        loop {
+            ask = match ask {
+                Ask::End => return,
+                Ask::Open(path) => {
+                    self.open(&path, &mut loaded);
+                    self.next()
+                }
+                Ask::Save(take, order) => {
+                    self.save(take, &order);
+                    self.next()
+                }
+                Ask::Draw(order) => {
+                    let drawn = match &loaded {
+                        Some(loaded) => self.draw(engine.as_ref(), loaded, &order),
+                        None => Ok(self.next()),
+                    };
+                    match drawn {
+                        Ok(next) => next,
+                        Err(fault) if self.may_fall_back(&fault) && !is_processor(&*engine) => {
+                            let text = format!("{}; the processor draws instead", fault.message);
+                            self.tell(News::Fault(text));
+                            engine = Box::new(Processor);
+                            Ask::Draw(order)
+                        }
+                        Err(fault) => {
+                            self.tell(News::Fault(fault.message));
+                            self.next()
+                        }
+                    }
+                }
+            };
+        }
+    }
+
+    /// The engine that the command would draw on.
+    fn engine(&self) -> Result<Box<dyn Engine + Send>, Fault> {
+        let opened = match self.args.drawing.backend {
+            Backend::Cpu => return Ok(Box::new(Processor)),
+            Backend::Gpu => hardware::open(DeviceChoice::Any, false),
+            Backend::Auto => match hardware::open(DeviceChoice::Hardware, false) {
+                Ok(device) => return Ok(device),
+                Err(_) => return Ok(Box::new(Processor)),
+            },
+        };
+        opened.map_err(|error| Fault::new(Exit::NoDevice, error))
+    }
+
+    /// Whether another engine may draw where one has failed.
+    fn may_fall_back(&self, fault: &Fault) -> bool {
+        fault.exit == Exit::NoDevice && self.args.drawing.backend == Backend::Auto
+    }
+
+    fn tell(&self, news: News) {
+        // Nobody listens once the window is closed.
+        let _ = self.news.send(news);
+        (self.wake)();
+    }
+
+    /// Loads a scene in place of the one before, which stays where that fails.
+    fn open(&self, path: &Path, loaded: &mut Option<Loaded>) {
+        let limits = self.args.drawing.limits.limits();
+        let external = self.args.drawing.allow_external.as_deref();
+        let opened = Source::of(path)
+            .load(&limits, external)
+            .and_then(|mut found| {
+                pose::dress(&self.args.drawing.pose, &mut found, &limits)?;
+                Ok(found)
+            });
+        match opened {
+            Ok(found) => {
+                *self.scene_files.borrow_mut() = watched(found.inputs.iter().cloned());
+                *loaded = Some(found);
+                self.scene.replace(path.to_owned());
+                self.is_stale.set(true);
+                self.tell(News::Scene(path.to_string_lossy().into_owned()));
+            }
+            Err(fault) => {
+                // A file that is written just now is looked at again.
+                let files = self.scene_files.take().into_iter().map(|(path, _)| path);
+                self.scene_files.replace(watched(files));
+                self.tell(News::Fault(fault.message));
+            }
+        }
+    }
+
+    fn save(&self, take: Take, order: &Order) {
+        let scene = self.scene.borrow().clone();
+        let saved = save::picture(&self.args, &scene, (take, order));
+        self.tell(match saved {
+            Ok(path) => News::Done(format!("{} is written", quoted(&path))),
+            Err(fault) => News::Fault(fault.message),
+        });
+    }
+
+    /// Draws the picture of an order, and those of later ones while the scene as it was prepared serves them. Gives
+    /// what is asked for next.
+    fn draw(&self, engine: &dyn Engine, loaded: &Loaded, first: &Order) -> Result<Ask, Fault> {
+        // Prepare the scene for the style.
+        let path = self.scene.borrow().clone();
+        let args = order_arguments(&self.args, &path, first);
+        let job = self.job(&args)?;
+        self.style_files.replace(watched(job.look.inputs()));
+        self.is_stale.set(false);
+        let pose = &args.drawing.pose;
+        let loaded = Loaded {
+            scene: loaded.scene.clone(),
+            format: loaded.format,
+            volume: loaded.volume.clone(),
+            inputs: loaded.inputs.clone(),
+        };
+        let prepared = render::prepare(&job, loaded, Some(pose), &mut Progress::new(true))?;
+
+        // Draw, and go on with what the preparation serves: drafts may be of a style that is a little off.
+        let style = job.look.style.clone();
+        let mut kept = VecDeque::new();
+        let mut order = first.clone();
+        loop {
+            self.draw_one((engine, &prepared), &path, &order, &mut kept)?;
+            let next = self.next();
+            let Ask::Draw(asked) = &next else {
+                return Ok(next);
+            };
+            let is_same = asked.style == first.style && asked.overrides == first.overrides;
+            let serves = is_same || asked.is_draft && self.serves(&style, &path, asked);
+            if self.is_stale.get() || !serves {
+                return Ok(next);
+            }
+            order = asked.clone();
+        }
+    }
+
+    fn job<'a>(&self, args: &'a RenderArguments) -> Result<Job<'a>, Fault> {
+        let source = Source::of(args.scene.as_deref().unwrap_or(Path::new("-")));
+        let target = Target::One(Output::Standard);
+        Job::drawn_into(args, source, target, PictureFormat::Png)
+    }
+
+    /// Whether drafts of an order can be drawn of a scene that was prepared for another style.
+    fn serves(&self, style: &Style, path: &Path, order: &Order) -> bool {
+        let args = order_arguments(&self.args, path, order);
+        let Ok(job) = self.job(&args) else {
+            return false;
+        };
+        let asked = &job.look.style;
+        asked.id_map == style.id_map
+            && asked.smoke == style.smoke
+            && asked.curve_sources().eq(style.curve_sources())
+    }
+
+    /// Draws one picture, with a renderer that is kept for the next.
+    fn draw_one<'a>(
+        &self,
+        (engine, prepared): (&'a dyn Engine, &'a Prepared),
+        path: &Path,
+        order: &Order,
+        kept: &mut VecDeque<(Order, Renderer<'a>)>,
+    ) -> Result<(), Fault> {
+        // Find the renderer of style and size, or make it.
+        let start = Instant::now();
+        let args = order_arguments(&self.args, path, order);
+        let draws = |(other, _): &(Order, Renderer<'_>)| {
+            other.size == order.size
+                && other.style == order.style
+                && other.overrides == order.overrides
+        };
+        let mut renderer = match kept.iter().position(draws) {
+            Some(place) => kept.remove(place),
+            None => None,
+        };
+        if renderer.is_none() {
+            let job = self.job(&args)?;
+            let options = RendererOptions {
+                smoke: prepared.smoke.clone(),
+                ..job.options.clone()
+            };
+            let made = prepared.renderer(engine, (&job.look.style, &options))?;
+            renderer = Some((order.clone(), made));
+        }
+        let Some((_, mut renderer)) = renderer else {
+            return Ok(());
+        };
+
+        // Draw.
+        let seen = prepared.seen()?;
+        let camera = viewpoint::camera(&args.drawing.camera, &seen, args.drawing.size)?;
+        let frame = renderer.draw(&camera)?;
+        kept.push_front((order.clone(), renderer));
+        kept.truncate(KEPT);
+        self.tell(News::Picture(Box::new(Picture {
+            rgba: frame.rgba,
+            viewpoint: order
+                .viewpoint
+                .unwrap_or_else(|| Viewpoint::of(&about_middle(camera, seen.bounds()))),
+            engine: engine.describe(),
+            seconds: start.elapsed().as_secs_f32(),
+            notices: frame.notices,
+            order: order.clone(),
+        })));
+        Ok(())
+    }
+
+    /// Waits for what is asked for next. Of pictures that were asked for one after the other, only the last counts.
+    fn next(&self) -> Ask {
+        loop {
+            // Take what came meanwhile.
+            let mut queue = self.queue.borrow_mut();
+            while let Ok(ask) = self.asks.try_recv() {
+                push(&mut queue, ask);
+            }
+            if let Some(ask) = queue.pop_front() {
+                return ask;
+            }
+
+            // Wait, and look at the files now and then.
+            match self.asks.recv_timeout(LOOK) {
+                Ok(ask) => push(&mut queue, ask),
+                Err(RecvTimeoutError::Disconnected) => return Ask::End,
+                Err(RecvTimeoutError::Timeout) => {
+                    if have_changed(&self.scene_files) {
+                        return Ask::Open(self.scene.borrow().clone());
+                    }
+                    if have_changed(&self.style_files) {
+                        self.is_stale.set(true);
+                        self.tell(News::StyleChanged);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Adds what is asked for; a picture takes the place of one that waits at the end.
+fn push(queue: &mut VecDeque<Ask>, ask: Ask) {
+    if matches!((queue.back(), &ask), (Some(Ask::Draw(_)), Ask::Draw(_))) {
+        queue.pop_back();
+    }
+    queue.push_back(ask);
+}
+
+/// The same view with its target where the middle of the scene is nearest to the axis, so that it turns about that.
+fn about_middle(camera: Camera, (min, max): ([f32; 3], [f32; 3])) -> Camera {
+    if !matches!(camera.projection, Projection::Perspective { .. }) {
+        return camera;
+    }
+    let back = camera.axes()[2];
+    let away = (0..3).map(|i| (camera.eye[i] - (min[i] + max[i]) * 0.5) * back[i]);
+    let distance: f32 = away.sum();
+    if distance <= 0.0 {
+        return camera;
+    }
+    Camera {
+        target: std::array::from_fn(|i| camera.eye[i] - back[i] * distance),
+        ..camera
+    }
+}
+
+fn is_processor(engine: &dyn Engine) -> bool {
+    engine.describe() == Processor.describe()
+}
+
+/// Files with the time of their last change.
+fn watched(files: impl IntoIterator<Item = PathBuf>) -> Vec<Watched> {
+    let time = |path: &Path| {
+        std::fs::metadata(path)
+            .and_then(|data| data.modified())
+            .ok()
+    };
+    files
+        .into_iter()
+        .map(|path| {
+            let changed = time(&path);
+            (path, changed)
+        })
+        .collect()
+}
+
+/// Whether any of the files has changed since it was looked at; it is looked at now.
+fn have_changed(files: &RefCell<Vec<Watched>>) -> bool {
+    let before = files.take();
+    let now = watched(before.iter().map(|(path, _)| path.clone()));
+    let is_changed = now != before;
+    files.replace(now);
+    is_changed
+}

@@ -1,0 +1,78 @@
+//! What is taken away from a studio, as files.
+
+use super::painter::order_arguments;
+use crate::arguments::{LineArguments, LineFormat, LinesArguments, SheetArguments, ViewArguments};
+use crate::fault::{Exit, Fault};
+use crate::lines;
+use crate::look::Look;
+use crate::output::{Output, folder_of};
+use crate::render;
+use crate::style_source::StyleSource;
+use npr_view::{Order, Sheet, Take};
+use std::path::{Path, PathBuf};
+
+/// Most numbers that are tried for a name that is still free.
+const NAMES_MAX: u32 = 10_000;
+
+/// Writes a style as a file named after the scene, and gives its path. One that extends a file lies beside it, so that
+/// its parent is found; any other in the current folder.
+pub fn style(scene: &Path, sheet: &Sheet) -> Result<PathBuf, Fault> {
+    let source = StyleSource::of(Some(sheet.name()));
+    let folder = source.file().map_or(Path::new("."), folder_of);
+    let path = free_path(folder, scene, "toml")?;
+    let text = match source.file().and_then(Path::file_name) {
+        Some(name) => sheet.file_over(&name.to_string_lossy()),
+        None => sheet.file(),
+    };
+    Output::of(&path)?.write(text.as_bytes())?;
+    Ok(path)
+}
+
+/// Draws the picture of an order into a file in the current folder, as the command does, and gives its path.
+pub fn picture(
+    args: &ViewArguments,
+    scene: &Path,
+    (take, order): (Take, &Order),
+) -> Result<PathBuf, Fault> {
+    let ending = if take == Take::Svg { "svg" } else { "png" };
+    let path = free_path(Path::new("."), scene, ending)?;
+    let mut args = order_arguments(args, scene, order);
+    args.output = Some(path.clone());
+    if take == Take::Png {
+        render::render(&args)?;
+        return Ok(path);
+    }
+
+    // Lines of a style that fills surfaces are drawn alone.
+    let look = Look::resolve(&args.drawing.look, args.drawing.allow_external.as_deref())?;
+    if look.paper_of_lines().is_some() {
+        lines::lines_of_picture(&args)?;
+        return Ok(path);
+    }
+    lines::lines(&LinesArguments {
+        scene: args.scene.clone(),
+        output: args.output.clone(),
+        format: Some(LineFormat::Svg),
+        lines: LineArguments::default(),
+        sheet: SheetArguments::default(),
+        drawing: args.drawing.clone(),
+        cache: args.cache.clone(),
+    })?;
+    Ok(path)
+}
+
+/// A path in a folder that is still free, named after a scene.
+fn free_path(folder: &Path, scene: &Path, ending: &str) -> Result<PathBuf, Fault> {
+    let stem = scene.file_stem().unwrap_or_default().to_string_lossy();
+    let named = (0..NAMES_MAX).map(|number| match number {
+        0 => format!("{stem}.{ending}"),
+        _ => format!("{stem}-{number}.{ending}"),
+    });
+    let mut paths = named.map(|name| match folder == Path::new(".") {
+        true => PathBuf::from(name),
+        false => folder.join(name),
+    });
+    paths
+        .find(|path| !path.exists())
+        .ok_or_else(|| Fault::new(Exit::Failed, format!("no name is free for {stem}.{ending}")))
+}

@@ -1,0 +1,168 @@
+//! What a studio asks of the program that it is shown in.
+
+use npr_stylesheet::Stated;
+
+use crate::sheet::Sheet;
+use crate::value::number_text;
+use crate::viewpoint::Viewpoint;
+
+/// A picture that is asked for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Order {
+    /// Counts up with every change of style or camera.
+    pub change: u64,
+    /// Name of the preset or path of the style file.
+    pub style: String,
+    /// What is changed of it, as `--set` takes it.
+    pub overrides: Vec<String>,
+    /// Where it is seen from; `None` where the host frames the scene by itself.
+    pub viewpoint: Option<Viewpoint>,
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// Whether it is for the time being, while something changes.
+    pub is_draft: bool,
+}
+
+impl Order {
+    /// The order as options of a command line that draws the same: style, what is changed of it, camera and size.
+    pub fn options(&self) -> Vec<String> {
+        let mut words: Vec<String> = vec!["--style".to_owned(), self.style.clone()];
+        for text in &self.overrides {
+            words.extend(["--set".to_owned(), text.clone()]);
+        }
+        if let Some(point) = &self.viewpoint {
+            let triple = |values: [f32; 3]| values.map(|value| format!("{value}")).join(",");
+            for (name, values) in [
+                ("--eye", point.eye),
+                ("--target", point.target),
+                ("--up", point.up),
+            ] {
+                words.push(format!("{name}={}", triple(values)));
+            }
+            let fov = number_text(f64::from(point.fov_deg));
+            words.extend(["--fov".to_owned(), fov]);
+            if point.is_parallel {
+                words.push("--ortho".to_owned());
+            }
+        }
+        let [width, height] = self.size;
+        words.extend(["--size".to_owned(), format!("{width}x{height}")]);
+        words
+    }
+}
+
+/// A picture that was drawn.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Picture {
+    /// Of which order.
+    pub order: Order,
+    /// sRGB bytes with straight alpha, row by row from the top.
+    pub rgba: Vec<u8>,
+    /// Where it is seen from.
+    pub viewpoint: Viewpoint,
+    /// What drew it, in one line.
+    pub engine: String,
+    /// How long that took, in seconds.
+    pub seconds: f32,
+    /// What was drawn in another way than the style asks.
+    pub notices: Vec<String>,
+}
+
+/// What a host has to tell.
+#[derive(Debug, Clone, PartialEq)]
+pub enum News {
+    /// A picture is finished.
+    Picture(Box<Picture>),
+    /// Something went wrong; the picture before stays. One line.
+    Fault(String),
+    /// Something was done. One line.
+    Done(String),
+    /// Another scene is drawn from now on, of this name.
+    Scene(String),
+    /// The style file has changed where it lies.
+    StyleChanged,
+}
+
+/// What is taken away from a studio.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Take {
+    /// The style, as a file that extends the preset.
+    Style,
+    /// The picture, as `.png`.
+    Png,
+    /// Its lines, as `.svg`.
+    Svg,
+}
+
+/// The program that a studio is shown in: it reads files and draws.
+pub trait Host {
+    /// The style of a preset's name or of a file's path.
+    ///
+    /// # Errors
+    ///
+    /// What is wrong with it, in one line.
+    fn style(&mut self, name: &str) -> Result<Stated, String>;
+
+    /// Opens a scene in place of the present one; [`News`] tells how that went.
+    fn open(&mut self, path: &str);
+
+    /// Draws a picture. One that is asked for later may be drawn in place of it.
+    fn draw(&mut self, order: Order);
+
+    /// What happened since the last call.
+    fn news(&mut self) -> Vec<News>;
+
+    /// A command line that draws the picture of an order, ready for a shell.
+    fn command(&self, order: &Order) -> String;
+
+    /// Writes a file; [`News`] tells under which name.
+    fn save(&mut self, take: Take, sheet: &Sheet, order: &Order);
+}
+
+/// Words as a line for a shell: those with anything but plain letters in single quotes.
+pub fn shell_line(words: &[String]) -> String {
+    let quoted = |word: &String| {
+        let is_plain =
+            |letter: char| letter.is_ascii_alphanumeric() || "-_./=,:+%@".contains(letter);
+        match !word.is_empty() && word.chars().all(is_plain) {
+            true => word.clone(),
+            false => format!("'{}'", word.replace('\'', "'\\''")),
+        }
+    };
+    words.iter().map(quoted).collect::<Vec<_>>().join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_is_quoted_where_a_shell_would_read_more_into_it() {
+        let words = ["npr", "a b", "x=#f00", "it's", ""].map(str::to_owned);
+        assert_eq!(shell_line(&words), "npr 'a b' 'x=#f00' 'it'\\''s' ''");
+    }
+
+    #[test]
+    fn an_order_is_said_by_options() {
+        let viewpoint = Viewpoint {
+            eye: [-1.5, 0.1, 1e-7],
+            target: [0.0; 3],
+            up: [0.0, 1.0, 0.0],
+            fov_deg: 40.0,
+            is_parallel: true,
+        };
+        let order = Order {
+            change: 0,
+            style: "ink".to_owned(),
+            overrides: vec!["line.color=#fff".to_owned()],
+            viewpoint: Some(viewpoint),
+            size: [64, 48],
+            is_draft: false,
+        };
+        assert_eq!(
+            order.options().join(" "),
+            "--style ink --set line.color=#fff --eye=-1.5,0.1,0.0000001 --target=0,0,0 --up=0,1,0 --fov 40 --ortho \
+             --size 64x48"
+        );
+    }
+}
