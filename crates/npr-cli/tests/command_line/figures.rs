@@ -16,6 +16,16 @@ fn place() -> Workplace {
     place
 }
 
+/// A puppet that does not say that it has springs, which are not read.
+pub fn stiff(vrm: Vrm, eyes: Eyes) -> Vec<u8> {
+    let (mut file, name) = (puppet(vrm, eyes), br#""VRMC_springBone","#);
+    let place = file.windows(name.len()).position(|bytes| bytes == name);
+    if let Some(place) = place {
+        file[place..place + name.len()].fill(b' ');
+    }
+    file
+}
+
 /// The drawing of a scene with options, and what was said of it beside what of a VRM is ignored anyway.
 fn drawn(place: &Workplace, command: &str, scene: &str, more: &[&str]) -> (Vec<u8>, String) {
     let file = if command == "lines" { "a.svg" } else { "a.png" };
@@ -32,9 +42,7 @@ fn drawn(place: &Workplace, command: &str, scene: &str, more: &[&str]) -> (Vec<u
     let outcome: Outcome = place.npr(&[&line, more].concat());
     assert_eq!(outcome.code, Some(0), "{more:?}: {}", outcome.stderr);
     let lines = outcome.stderr.lines();
-    let said: Vec<&str> = lines
-        .filter(|line| !line.contains("look-at and springs"))
-        .collect();
+    let said: Vec<&str> = lines.filter(|line| !line.contains("springs")).collect();
     (place.get(file), said.join("\n"))
 }
 
@@ -227,8 +235,8 @@ fn figures_look_at_points_and_at_the_camera() {
     let place = place();
     let view = ["--eye", "0.4,1.8,1.2", "--target", "0,1.6,0"];
     for eyes in [Eyes::Bones, Eyes::Expressions] {
-        place.put("zero.vrm", &puppet(Vrm::Zero, eyes));
-        place.put("one.vrm", &puppet(Vrm::One, eyes));
+        place.put("zero.vrm", &stiff(Vrm::Zero, eyes));
+        place.put("one.vrm", &stiff(Vrm::One, eyes));
         for command in ["render", "lines"] {
             let look = |scene, more: &[&str]| {
                 let (picture, said) = drawn(&place, command, scene, &[&view, more].concat());
@@ -257,7 +265,7 @@ fn figures_look_at_points_and_at_the_camera() {
 #[test]
 fn eyes_follow_the_camera_of_a_film() {
     let place = place();
-    place.put("one.vrm", &puppet(Vrm::One, Eyes::Expressions));
+    place.put("one.vrm", &stiff(Vrm::One, Eyes::Expressions));
     let film = |name: &str, more: &[&str]| {
         let file = format!("{name}_#.png");
         let line = [
@@ -272,11 +280,10 @@ fn eyes_follow_the_camera_of_a_film() {
         ];
         let turn = ["--turntable", "--length", "4"];
         let outcome = place.npr(&[&line, &turn[..], more].concat());
-        assert_eq!(
-            (outcome.code, outcome.stderr.as_str()),
-            (Some(0), ""),
-            "{more:?}"
-        );
+        let mut said = outcome.stderr.lines();
+        let of_motion = |line: &str| line.contains("of the motion");
+        assert_eq!(outcome.code, Some(0), "{more:?}");
+        assert!(said.all(of_motion), "{}", outcome.stderr);
         let frames = (0..4).filter(|number| place.path(&format!("{name}_{number}.png")).exists());
         let frames = frames.map(|number| place.get(&format!("{name}_{number}.png")));
         frames.collect::<Vec<_>>()

@@ -351,8 +351,17 @@ const DRAWINGS: &[Case] = &[
         Acts,
     ),
     (
-        &["lines", "puppet.vrm", "-o", "a.svg"],
-        &["--look-at", "4,1,2"],
+        &[
+            "lines",
+            "puppet.vrm",
+            "-o",
+            "a.svg",
+            "--eye",
+            "0.2,1.7,0.6",
+            "--target",
+            "0,1.6,0",
+        ],
+        &["--look-at", "9,1.6,1"],
         Acts,
     ),
     (
@@ -745,7 +754,7 @@ fn put_figures(place: &Workplace) {
         &npr_scene::testing::avatar(npr_scene::testing::Vrm::One),
     );
     let eyes = npr_scene::Eyes::Expressions;
-    let puppet = npr_scene::testing::puppet(npr_scene::testing::Vrm::One, eyes);
+    let puppet = crate::figures::stiff(npr_scene::testing::Vrm::One, eyes);
     place.put("puppet.vrm", &puppet);
     place.put("wave.vrma", &npr_scene::testing::gesture());
     place.put(
