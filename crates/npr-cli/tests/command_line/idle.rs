@@ -754,7 +754,7 @@ fn put_figures(place: &Workplace) {
         &npr_scene::testing::avatar(npr_scene::testing::Vrm::One),
     );
     let eyes = npr_scene::Eyes::Expressions;
-    let puppet = crate::figures::stiff(npr_scene::testing::Vrm::One, eyes);
+    let puppet = npr_scene::testing::puppet(npr_scene::testing::Vrm::One, eyes);
     place.put("puppet.vrm", &puppet);
     place.put("wave.vrma", &npr_scene::testing::gesture());
     place.put(
