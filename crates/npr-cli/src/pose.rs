@@ -9,9 +9,10 @@ use npr_core::camera::Camera;
 use npr_render::{Movement, RenderError};
 use npr_scene::{
     Bone, Clip, Eyes, Figure, Limits, MotionError, Notice, Pose, Posture, PostureError,
-    PostureFault, Property, Scene,
+    PostureFault, Property, Scene, Swinging,
 };
 use npr_stylesheet::Style;
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
@@ -87,6 +88,8 @@ pub struct Stance {
     shares: BTreeMap<u32, f32>,
     /// What its figure looks at.
     look_at: Option<LookedAt>,
+    /// How its springs swing while the clip plays.
+    swinging: RefCell<Swinging>,
     /// Most bytes that it may take to know where everything was.
     memory_limit: u64,
     /// What there is to warn of.
@@ -137,10 +140,10 @@ impl Stance {
     /// Puts the scene into it at a time of the clip, in seconds, seen by a camera, and gives what there is to warn of: a
     /// pose that would carry something out of range is not taken. Without a camera no figure looks at it.
     pub fn stand(&self, scene: &mut Scene, time_s: f32, camera: Option<&Camera>) -> Option<String> {
-        let clip = self.clip.as_ref();
-        let mut pose = clip.map_or_else(Pose::default, |clip| scene.pose_at(clip, time_s));
-        if let Some(posture) = &self.posture {
-            scene.bend(&mut pose, posture);
+        let mut pose = self.stiff(scene, time_s);
+        if self.clip.is_some() && scene.springs.is_some() {
+            let mut swinging = self.swinging.borrow_mut();
+            pose.swings = swinging.at(scene, time_s, |time_s| self.stiff(scene, time_s));
         }
         pose.look_at = match self.look_at {
             Some(LookedAt::Place(place)) => Some(place.0),
@@ -156,13 +159,23 @@ impl Stance {
         }
         pose.shares.extend(&self.shares);
         let fault = scene.set_pose(&pose).err()?;
-        Some(match clip {
+        Some(match &self.clip {
             Some(clip) => {
                 let name = message::name(&clip.name);
                 format!("clip '{name}' is not played: {fault}")
             }
             None => format!("the scene rests: {fault}"),
         })
+    }
+
+    /// How bones stand at a time of the clip, before anything swings or looks.
+    fn stiff(&self, scene: &Scene, time_s: f32) -> Pose {
+        let clip = self.clip.as_ref();
+        let mut pose = clip.map_or_else(Pose::default, |clip| scene.pose_at(clip, time_s));
+        if let Some(posture) = &self.posture {
+            scene.bend(&mut pose, posture);
+        }
+        pose
     }
 
     /// Where everything in a scene was before a time of the clip, in seconds, as far as a style follows motion; none

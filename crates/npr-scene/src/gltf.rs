@@ -17,6 +17,7 @@ pub(crate) mod material;
 pub(crate) mod mesh;
 pub(crate) mod primitive;
 pub(crate) mod skin;
+pub(crate) mod spring;
 pub(crate) mod texture;
 pub(crate) mod toon;
 pub(crate) mod toon_0;
@@ -80,6 +81,7 @@ fn read_document(
     material::read(&accessors, &mut scene, loading)?;
     vrm::turn_to_front(&root, &mut scene);
     tree::place(&mut scene, loading);
+    scene.springs = spring::read(&root, &tree, &scene, loading)?;
 
     unused::note(&accessors, loading);
     note_what_is_ignored(&root, loading);
@@ -135,5 +137,4 @@ fn note_what_is_ignored(root: &Root, loading: &mut Loading) {
             .notices
             .add(format!("extension '{}' is ignored", shown(name)));
     }
-    vrm::note_what_is_ignored(root, loading);
 }

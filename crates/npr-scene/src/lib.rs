@@ -66,6 +66,7 @@ mod skin;
 mod skinning;
 mod soundness;
 mod split;
+mod springs;
 mod standing;
 mod stl;
 #[cfg(any(test, feature = "testing"))]
@@ -105,6 +106,7 @@ pub use posture::{Posture, PostureError, PostureFault};
 pub use resources::{FolderResources, MemoryResources, ResourceError, Resources};
 pub use scene::Scene;
 pub use skin::Skin;
+pub use springs::{Collider, SpringChain, SpringJoint, Springs, Swing, Swinging};
 pub use stl::StlError;
 pub use toon::{OutlineWidth, Toon, ToonOutline, UvFlow};
 pub use transform::Transform;

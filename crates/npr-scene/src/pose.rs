@@ -29,6 +29,8 @@ pub struct Pose {
     /// The point of the world that the scene's figure looks at; without one its eyes stay as they are. Expressions that
     /// look and have no share get one.
     pub look_at: Option<[f32; 3]>,
+    /// Turns of nodes beside their parents, by node, as quaternions, which count last: those of [springs](crate::Swinging).
+    pub swings: BTreeMap<u32, [f32; 4]>,
 }
 
 /// Why a scene cannot be put into a pose.
@@ -105,14 +107,24 @@ impl Scene {
         Err(PoseError::OutOfRange { node })
     }
 
-    /// A pose with what follows from it: where eyes look, and then the turns that constraints give.
-    fn followed<'a>(&self, pose: &'a Pose) -> Cow<'a, Pose> {
+    /// A pose with what follows from it: where eyes look, then the turns that constraints give, and then those of springs.
+    pub(crate) fn followed<'a>(&self, pose: &'a Pose) -> Cow<'a, Pose> {
         let mut pose = Cow::Borrowed(pose);
         if pose.look_at.is_some() {
             self.look(pose.to_mut());
         }
         if !self.constraints.is_empty() {
             self.constrain(pose.to_mut());
+        }
+        if !pose.swings.is_empty() {
+            let Pose {
+                transforms, swings, ..
+            } = pose.to_mut();
+            for (node, turn) in swings {
+                let rest = self.nodes.get(*node as usize).and_then(|node| node.rest);
+                let stand = transforms.entry(*node).or_insert(rest.unwrap_or_default());
+                stand.rotation = *turn;
+            }
         }
         pose
     }

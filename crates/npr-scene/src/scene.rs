@@ -11,7 +11,9 @@ use crate::mesh::{Mesh, POSITION_LIMIT, Part};
 use crate::node::Node;
 use crate::notice::Notice;
 use crate::skin::Skin;
+use crate::springs::Springs;
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 /// Everything of a file that can be drawn.
 ///
@@ -41,6 +43,8 @@ pub struct Scene {
     pub clips: Vec<Clip>,
     /// Nodes that follow others, each behind those that it depends on; no node has two.
     pub constraints: Vec<Constraint>,
+    /// Bones that swing in films; none where nothing does.
+    pub springs: Option<Arc<Springs>>,
     /// What VRM says of the avatar, or of the motion; none where the file is no VRM.
     pub figure: Option<Figure>,
     /// What was ignored or mended, each thing once.
@@ -165,6 +169,9 @@ impl Scene {
             assert_in(Some(channel.node), count, "what a channel moves");
         }
         self.check_constraints();
+        self.springs
+            .iter()
+            .for_each(|springs| self.check_springs(springs));
         self.figure
             .iter()
             .for_each(|figure| self.check_figure(figure));
@@ -178,6 +185,44 @@ impl Scene {
             }
             assert!(nodes.insert(constraint.node), "one constraint a node");
             assert!((0.0..=1.0).contains(&constraint.weight), "a weight");
+        }
+    }
+
+    fn check_springs(&self, springs: &Springs) {
+        let joints = &springs.joints;
+        assert!(
+            joints.is_sorted_by(|a, b| a.node < b.node),
+            "joints in order"
+        );
+        for joint in joints {
+            assert_in(Some(joint.node), self.nodes.len(), "node of a spring");
+            assert_in(Some(joint.chain), springs.chains.len(), "chain of a joint");
+            assert!(joint.end != [0.0; 3] && joint.radius >= 0.0, "an end");
+            assert!((0.0..=1.0).contains(&joint.drag), "a share of speed");
+            let numbers = [
+                joint.end,
+                joint.gravity,
+                [joint.radius, joint.stiffness, 0.0],
+            ];
+            assert!(
+                numbers.as_flattened().iter().all(|v| v.is_finite()),
+                "finite springs"
+            );
+        }
+        for chain in &springs.chains {
+            assert_in(chain.center, self.nodes.len(), "centre of a spring");
+            let colliders = chain.colliders.iter();
+            colliders.for_each(|collider| {
+                assert_in(Some(*collider), springs.colliders.len(), "collider")
+            });
+        }
+        for collider in &springs.colliders {
+            assert_in(Some(collider.node), self.nodes.len(), "node of a collider");
+            let numbers = [collider.from, collider.to];
+            assert!(
+                numbers.as_flattened().iter().all(|v| v.is_finite()) && collider.radius >= 0.0,
+                "a ball"
+            );
         }
     }
 

@@ -380,8 +380,17 @@ const DRAWINGS: &[Case] = &[
         Acts,
     ),
     (
-        &["lines", "puppet.vrm", "-o", "a.svg"],
-        &["--look-at", "4,1,2"],
+        &[
+            "lines",
+            "puppet.vrm",
+            "-o",
+            "a.svg",
+            "--eye",
+            "0.2,1.7,0.6",
+            "--target",
+            "0,1.6,0",
+        ],
+        &["--look-at", "9,1.6,1"],
         Acts,
     ),
     (

@@ -20,7 +20,7 @@ use crate::limits::{self, Limits};
 pub(crate) const NO_NODE: u32 = u32::MAX;
 
 /// Extensions that a file may require; what they change is either read or harmless to ignore.
-const SUPPORTED: [&str; 11] = [
+const SUPPORTED: [&str; 12] = [
     "KHR_lights_punctual",
     "KHR_materials_emissive_strength",
     "KHR_materials_pbrSpecularGlossiness",
@@ -30,6 +30,7 @@ const SUPPORTED: [&str; 11] = [
     "VRM",
     "VRMC_materials_mtoon",
     "VRMC_node_constraint",
+    "VRMC_springBone",
     "VRMC_vrm",
     "VRMC_vrm_animation",
 ];

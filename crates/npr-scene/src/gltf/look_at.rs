@@ -46,7 +46,7 @@ pub(crate) fn of_1(vrm: &Value, loading: &mut Loading) -> Result<Option<LookAt>,
     }
     let mut map = |key: &str| {
         let keys = ["inputMaxValue", "outputScale"];
-        range_map(said.get(&format!("rangeMap{key}")), keys, eyes, loading)
+        range_map(said.get(format!("rangeMap{key}")), keys, eyes, loading)
     };
     Ok(Some(LookAt {
         eyes,

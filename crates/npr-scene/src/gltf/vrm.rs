@@ -1,7 +1,7 @@
 //! VRM avatars: glTF files with a humanoid, expressions and toon materials.
 //!
 //! Geometry and base materials are plain glTF; bones and expressions are read by `figure.rs`, looks by
-//! `look_at.rs`, toon materials by `toon.rs`, the rest is not.
+//! `look_at.rs`, springs by `spring.rs`, toon materials by `toon.rs`.
 #![deny(
     clippy::unwrap_used,
     clippy::expect_used,
@@ -14,7 +14,6 @@ use ::gltf::json::Root;
 use serde_json::Value;
 
 use crate::clip::{Channel, Property};
-use crate::loading::Loading;
 use crate::matrix::{self, HALF_TURN_Y};
 use crate::scene::Scene;
 use crate::transform::{Transform, half_turned_move, half_turned_rotation};
@@ -49,15 +48,6 @@ pub(crate) fn turn_to_front(root: &Root, scene: &mut Scene) {
 fn turn_values<const N: usize>(channel: &mut Channel, turn: impl Fn([f32; N]) -> [f32; N]) {
     let (values, _) = channel.values.as_chunks::<N>();
     channel.values = values.iter().flat_map(|value| turn(*value)).collect();
-}
-
-/// Says which data of an avatar is ignored.
-pub(crate) fn note_what_is_ignored(root: &Root, loading: &mut Loading) {
-    let springs =
-        extension(root, "VRM").and_then(|vrm| vrm.pointer("/secondaryAnimation/boneGroups/0"));
-    if springs.is_some() {
-        loading.notices.add("springs of VRM 0.x are ignored");
-    }
 }
 
 /// What an extension of the whole file says.

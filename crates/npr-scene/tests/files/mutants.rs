@@ -4,7 +4,9 @@ use npr_scene::testing::{
     Sheet, Vrm, avatar, gesture, lines_glb, puppet, skinned_glb, skinned_lines_glb, sparse_glb,
     wing,
 };
-use npr_scene::{Bone, Eyes, Format, Limits, MemoryResources, Pose, Posture, Scene, load_bytes};
+use npr_scene::{
+    Bone, Eyes, Format, Limits, MemoryResources, Pose, Posture, Scene, Swinging, load_bytes,
+};
 use proptest::prelude::*;
 
 /// What happens to a few bytes of a file.
@@ -79,6 +81,16 @@ fn survives(mut file: Vec<u8>, format: Format, damages: &[Damage]) {
             }
         }
         if scene.set_pose(&acted(&rest)).is_ok() {
+            scene.sanity_check();
+        }
+        let acted = acted(&rest);
+        let swings = Swinging::default().at(&rest, 0.1, |_| acted.clone());
+        let swung = Pose {
+            swings,
+            look_at: Some([1.0, 2.0, 3.0]),
+            ..acted
+        };
+        if scene.set_pose(&swung).is_ok() {
             scene.sanity_check();
         }
         scene.set_pose(&Pose::default()).expect("the rest pose");

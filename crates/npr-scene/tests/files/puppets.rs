@@ -4,13 +4,16 @@ use crate::figures::{list, number, parts};
 use crate::models::{loaded, models};
 use npr_scene::testing::{Vrm, glb, puppet};
 use npr_scene::{
-    Bone, Eyes, Figure, Format, Limits, MemoryResources, Pose, Posture, Scene, SceneError,
-    load_bytes,
+    Bone, Eyes, Figure, Format, Limits, MemoryResources, Pose, Posture, Scene, SceneError, Springs,
+    Swinging, load_bytes,
 };
 use serde_json::Value;
 
 /// What `three_puppets.mjs` wrote.
 const OF_THREE: &str = include_str!("../data/three_puppets.json");
+
+/// The motion that it played.
+const GESTURE: &[u8] = include_bytes!("../data/gesture.vrma");
 
 /// The puppet that it moved.
 const PUPPET: &[u8] = include_bytes!("../data/puppet.vrm");
@@ -36,7 +39,6 @@ fn mended(vrm: Vrm, from: &str, to: &str) -> (Scene, Vec<String>) {
     assert!(text.contains(from), "{from}");
     let scene = load(&glb(&text.replacen(from, to, 1), &bin));
     let told = scene.notices.iter().map(|notice| notice.text.clone());
-    let told = told.filter(|text| !text.contains("spring"));
     (scene.clone(), told.collect())
 }
 
@@ -175,6 +177,351 @@ fn eyes_look_as_those_of_three_vrm_do() {
         }
     }
     assert_eq!(counts, [2 * 2 * 12, 3 * 4 * 12]);
+}
+
+/// Most that the end of a spring may lie from where three-vrm has it, in units of the world: a figure is 1 to 2 high.
+const APART: f64 = 5e-4;
+
+#[test]
+fn springs_swing_as_those_of_three_vrm_do() {
+    let Some(folder) = models() else { return };
+    let (of_three, motion) = (of_three(), load(GESTURE));
+    let mut counts = [0, 0];
+    for model in list(&of_three["swings"]) {
+        let name = model["name"].as_str().expect("a name");
+        let rest = match name {
+            "puppet.vrm" => load(PUPPET),
+            _ => loaded(&folder, name),
+        };
+        let clips = rest
+            .clips_of(&motion, &Limits::default())
+            .expect("a motion")
+            .clips;
+        let mut swinging = Swinging::default();
+        for moment in list(&model["moments"]) {
+            let time = (number(&moment["step"]) / 60.0) as f32;
+            let mut pose = rest.pose_at(&clips[0], time);
+            let stiff = pose.clone();
+            pose.swings = swinging.at(&rest, time, |time| rest.pose_at(&clips[0], time));
+            let [stood, stiff] = [&pose, &stiff].map(|pose| {
+                let mut posed = rest.clone();
+                posed.set_pose(pose).expect("in range");
+                posed
+            });
+            for told in list(&moment["places"]) {
+                let node = node_of(&rest, told[0].as_str().expect("a name")) as usize;
+                let wanted = [1, 2, 3].map(|i| number(&told[i]));
+                let apart = |scene: &Scene| {
+                    let [x, y, z, _] = scene.nodes[node].world_from_node[3].map(f64::from);
+                    let [a, b, c] = wanted;
+                    ((x - a) * (x - a) + (y - b) * (y - b) + (z - c) * (z - c)).sqrt()
+                };
+                let what = format!("{name}, {} at {time} s", told[0]);
+                assert!(apart(&stood) < APART, "{what}: {}", apart(&stood));
+                counts[0] += 1;
+                counts[1] += i32::from(apart(&stiff) > 4.0 * APART);
+            }
+        }
+    }
+    // Most ends would lie far off if they did not swing.
+    assert_eq!(counts[0], 8 * 14);
+    assert!(counts[1] > 60, "{counts:?}");
+}
+
+#[test]
+fn both_versions_swing_alike() {
+    let motion = load(GESTURE);
+    let places = |vrm, time: f32| {
+        let mut scene = load(&puppet(vrm, Eyes::Bones));
+        let clips = scene
+            .clips_of(&motion, &Limits::default())
+            .expect("a motion")
+            .clips;
+        let mut pose = scene.pose_at(&clips[0], time);
+        pose.shares.clear();
+        pose.swings = Swinging::default().at(&scene, time, |time| scene.pose_at(&clips[0], time));
+        // The tail swings in VRM 1.0 alone.
+        pose.swings.remove(&node_of(&scene, "tail 1"));
+        scene.set_pose(&pose).expect("in range");
+        let parts = scene.drawn_parts();
+        let places = parts.flat_map(|(node, part)| scene.positions_world(node, part));
+        places.collect::<Vec<_>>()
+    };
+    for time in [0.0, 0.3, 1.0, 1.9] {
+        let [old, new] = [Vrm::Zero, Vrm::One].map(|vrm| places(vrm, time));
+        assert_eq!(old.len(), new.len());
+        let pairs = old.as_flattened().iter().zip(new.as_flattened());
+        let apart = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
+        assert!(apart < 1e-4, "{time}: {apart}");
+    }
+}
+
+#[test]
+fn broken_springs_are_left_out_and_told() {
+    // How many joints and colliders are left, and how many of these the hair minds.
+    let of = |vrm, from: &str, to: &str, told: &str| {
+        let (scene, said) = mended(vrm, from, to);
+        assert_eq!(said, [told], "{to}");
+        let springs = scene.springs.expect("springs");
+        [
+            springs.joints.len(),
+            springs.colliders.len(),
+            springs.chains[0].colliders.len(),
+        ]
+    };
+    let ignored = |what: &str, fault: &str| format!("{what} of the avatar is ignored: {fault}");
+    let (scene, said) = mended(Vrm::One, "mesh", "mesh");
+    assert_eq!(
+        (
+            said.len(),
+            scene.springs.map(|springs| springs.joints.len())
+        ),
+        (0, Some(6))
+    );
+    let (scene, said) = mended(Vrm::Zero, "mesh", "mesh");
+    assert_eq!(
+        (
+            said.len(),
+            scene.springs.map(|springs| springs.joints.len())
+        ),
+        (0, Some(5))
+    );
+
+    // Numbers of joints.
+    let joint = r#""hitRadius":0.02,"stiffness":0.8,"gravityPower":0.4"#;
+    let first = "joint 0 of spring 'hair'";
+    for (key, name, fault) in [
+        ("0.02", "hitRadius", "no number from 0"),
+        ("0.8", "stiffness", "no number from 0"),
+        ("0.4", "gravityPower", "no number"),
+    ] {
+        for value in ["\"1\"", "null", "[]", "1e300", "-1"] {
+            if (name, value) == ("gravityPower", "-1") {
+                continue;
+            }
+            let to = joint.replace(key, value);
+            let told = ignored(first, &format!("its {name} is {fault}"));
+            assert_eq!(of(Vrm::One, joint, &to, &told), [5, 4, 2]);
+        }
+    }
+    for value in ["1.01", "-0.1", "null"] {
+        let told = ignored(first, "its dragForce is no number from 0 to 1");
+        let to = format!("\"dragForce\":{value}");
+        assert_eq!(of(Vrm::One, "\"dragForce\":0.3", &to, &told), [5, 4, 2]);
+    }
+    let told = ignored(first, "its gravityDir is no list of three numbers");
+    assert_eq!(
+        of(Vrm::One, "\"gravityDir\":[0.2,", "\"gravityDir\":[", &told),
+        [5, 4, 2]
+    );
+
+    // Nodes of joints: 17, 18, 19 and 28 are the hair, 20 and 21 the skirt.
+    let none = "it names no node of the 30 in the file";
+    for node in ["30", "-1", "1.5", "null", "\"17\""] {
+        let told = ignored(first, none);
+        assert_eq!(
+            of(
+                Vrm::One,
+                "\"node\":17}",
+                &format!("\"node\":{node}}}"),
+                &told
+            ),
+            [5, 4, 2]
+        );
+    }
+    let twice = ignored(
+        "joint 0 of spring 'skirt'",
+        "its node is of another spring already",
+    );
+    let away = ignored(
+        "joint 1 of spring 'hair'",
+        "the joint behind it does not hang on it",
+    );
+    let (scene, said) = mended(Vrm::One, "\"node\":19}", "\"node\":20}");
+    // 18 to 20 is no way down; 20 to 28 neither.
+    let further = ignored(
+        "joint 2 of spring 'hair'",
+        "the joint behind it does not hang on it",
+    );
+    assert_eq!(said, [away, further]);
+    assert_eq!(scene.springs.expect("springs").joints.len(), 4);
+    let (scene, said) = mended(
+        Vrm::One,
+        "\"node\":28}]",
+        "\"node\":28},{\"node\":20},{\"node\":21}]",
+    );
+    let beyond = ignored(
+        "joint 3 of spring 'hair'",
+        "the joint behind it does not hang on it",
+    );
+    assert_eq!(said, [beyond, twice]);
+    assert_eq!(scene.springs.expect("springs").joints.len(), 6);
+
+    // A circle of joints is no way down either.
+    let (scene, said) = mended(Vrm::One, "\"node\":28}]", "\"node\":17}]");
+    let told = ignored(
+        "joint 2 of spring 'hair'",
+        "the joint behind it does not hang on it",
+    );
+    assert_eq!(said, [told]);
+    assert_eq!(scene.springs.expect("springs").joints.len(), 5);
+
+    // Skipping a node is fine.
+    let (scene, said) = mended(Vrm::One, "\"node\":19}", "\"node\":28}");
+    assert_eq!(
+        said,
+        [ignored(
+            "joint 2 of spring 'hair'",
+            "the joint behind it does not hang on it"
+        )]
+    );
+    let springs = scene.springs.expect("springs");
+    let end = springs
+        .joints
+        .iter()
+        .find(|joint| joint.node == node_of_hair(&springs, 1))
+        .expect("a joint")
+        .end;
+    assert!((end[1] + 0.14 + 0.07).abs() < 1e-5, "{end:?}");
+
+    // Colliders and their groups.
+    let sphere = r#""sphere":{"offset":[0.0,0.05,0.0],"radius":0.11}"#;
+    let of_sphere = |to: &str, fault: &str| {
+        let told = ignored("collider 0 of the springs", fault);
+        assert_eq!(of(Vrm::One, sphere, to, &told), [6, 3, 1]);
+    };
+    for radius in ["-0.1", "null", "1e300", "\"1\""] {
+        of_sphere(
+            &sphere.replace("0.11", radius),
+            "its radius is no number from 0",
+        );
+    }
+    of_sphere(
+        &sphere.replace("[0.0,", "["),
+        "its offset is no list of three numbers",
+    );
+    of_sphere("\"plane\":{}", "it is neither a sphere nor a capsule");
+    let told = ignored("collider 0 of the springs", none);
+    assert_eq!(
+        of(
+            Vrm::One,
+            "{\"node\":2,\"shape\"",
+            "{\"node\":99,\"shape\"",
+            &told
+        ),
+        [6, 3, 1]
+    );
+    let told = ignored(
+        "a collider of group 0 of the springs",
+        "there is no such collider",
+    );
+    assert_eq!(
+        of(
+            Vrm::One,
+            "\"colliders\":[0,1]",
+            "\"colliders\":[0,7]",
+            &told
+        ),
+        [6, 4, 1]
+    );
+    let told = ignored(
+        "a collider group of spring 'hair'",
+        "there is no such group",
+    );
+    assert_eq!(
+        of(
+            Vrm::One,
+            "\"colliderGroups\":[0]",
+            "\"colliderGroups\":[9]",
+            &told
+        ),
+        [6, 4, 0]
+    );
+    let told = ignored("the center of spring 'tail'", none);
+    assert_eq!(
+        of(Vrm::One, "\"center\":0", "\"center\":-1", &told),
+        [6, 4, 2]
+    );
+
+    // VRM 0.x.
+    let told = ignored("bone 0 of spring 0", "its stiffiness is no number from 0");
+    assert_eq!(
+        of(
+            Vrm::Zero,
+            "\"stiffiness\":0.8",
+            "\"stiffiness\":null",
+            &told
+        ),
+        [2, 3, 2]
+    );
+    let told = ignored(
+        "bone 0 of spring 0",
+        "it names no node of the 28 in the file",
+    );
+    assert_eq!(
+        of(Vrm::Zero, "\"bones\":[17]", "\"bones\":[77]", &told),
+        [2, 3, 2]
+    );
+    let told = ignored(
+        "bone 1 of spring 0",
+        "some of its bones are of another spring already",
+    );
+    assert_eq!(
+        of(Vrm::Zero, "\"bones\":[17]", "\"bones\":[17,18]", &told),
+        [5, 3, 2]
+    );
+    let told = ignored(
+        "collider 0 of group 0 of the springs",
+        "its radius is no number from 0",
+    );
+    assert_eq!(
+        of(Vrm::Zero, "\"radius\":0.11", "\"radius\":-1", &told),
+        [5, 2, 1]
+    );
+    let told = ignored(
+        "collider 0 of group 0 of the springs",
+        "it names no node of the 28 in the file",
+    );
+    assert_eq!(
+        of(
+            Vrm::Zero,
+            "{\"node\":2,\"colliders\"",
+            "{\"node\":-2,\"colliders\"",
+            &told
+        ),
+        [5, 2, 1]
+    );
+}
+
+/// The node of a joint of the hair.
+fn node_of_hair(springs: &Springs, place: usize) -> u32 {
+    let hair = springs.joints.iter().filter(|joint| joint.chain == 0);
+    hair.map(|joint| joint.node).nth(place).expect("hair")
+}
+
+#[test]
+fn springs_count_towards_the_memory_limit_and_have_a_limit_of_their_own() {
+    let (text, bin) = parts(&puppet(Vrm::One, Eyes::Bones));
+    let from = "\"colliders\":[0,1]";
+    let many = format!("\"colliders\":[{}0]", "0,".repeat(400_000));
+    let file = glb(&text.replacen(from, &many, 1), &bin);
+    let scene = load(&file);
+    assert!(scene.springs.is_none());
+    let told = "the springs of the avatar are ignored: 1200006 pairs of joints and colliders are more than 1000000";
+    assert!(
+        scene.notices.iter().any(|notice| notice.text == told),
+        "{:?}",
+        scene.notices
+    );
+    let limits = Limits {
+        memory_bytes: 1_000_000,
+        ..Limits::default()
+    };
+    let fault = load_within(&file, &limits).expect_err("too many");
+    assert!(
+        fault.is_limit() && fault.to_string().contains("springs"),
+        "{fault}"
+    );
 }
 
 /// Both versions of VRM, and both kinds of eyes.
