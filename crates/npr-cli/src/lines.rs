@@ -234,8 +234,8 @@ pub fn load(job: &LineJob<'_>, progress: &mut Progress) -> Result<Loaded, Fault>
     })
 }
 
-/// Prepares the scene and the smoke in it, and warns about what is ignored. The scene takes the pose that is asked for;
-/// without `pose` it rests.
+/// Prepares the scene and the smoke in it, and warns about what is ignored. The scene takes the pose that is asked
+/// for; without `pose` it rests.
 pub fn prepare(
     job: &LineJob<'_>,
     mut loaded: Loaded,

@@ -65,8 +65,8 @@ impl Playing {
         &self.stance.warnings
     }
 
-    /// Poses the scene as it stands in a frame, seen by the camera that `camera` gives for it, and gives that camera and
-    /// what there is to warn of.
+    /// Poses the scene as it stands in a frame, seen by the camera that `camera` gives for it, and gives that camera
+    /// and what there is to warn of.
     pub fn pose(
         &self,
         scene: &mut Scene,

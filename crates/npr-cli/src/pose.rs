@@ -137,8 +137,8 @@ impl Stance {
         self.look_at == Some(LookedAt::Camera)
     }
 
-    /// Puts the scene into it at a time of the clip, in seconds, seen by a camera, and gives what there is to warn of: a
-    /// pose that would carry something out of range is not taken. Without a camera no figure looks at it.
+    /// Puts the scene into it at a time of the clip, in seconds, seen by a camera, and gives what there is to warn of:
+    /// a pose that would carry something out of range is not taken. Without a camera no figure looks at it.
     pub fn stand(&self, scene: &mut Scene, time_s: f32, camera: Option<&Camera>) -> Option<String> {
         let mut pose = self.stiff(scene, time_s);
         if self.clip.is_some() && scene.springs.is_some() {
@@ -350,8 +350,8 @@ fn posture_of(
     Ok((posture, warnings))
 }
 
-/// What a user may want to know of a scene with so many clips of which none plays; `is_posed` is whether something else
-/// poses it.
+/// What a user may want to know of a scene with so many clips of which none plays; `is_posed` is whether something
+/// else poses it.
 fn why_at_rest(args: &PoseArguments, clip_count: usize, is_posed: bool) -> Option<String> {
     match (args.time, clip_count) {
         (Some(_), _) => Some("--time is ignored: the scene has no clips".to_owned()),

@@ -218,8 +218,8 @@ impl Prepared {
     }
 }
 
-/// Prepares the scene and the smoke in it, and warns about what is ignored. The scene takes the pose that is asked for;
-/// without `pose` it rests.
+/// Prepares the scene and the smoke in it, and warns about what is ignored. The scene takes the pose that is asked
+/// for; without `pose` it rests.
 pub fn prepare(
     job: &Job<'_>,
     mut loaded: Loaded,

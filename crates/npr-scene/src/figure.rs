@@ -2,7 +2,7 @@
 
 use crate::bone::Bone;
 use crate::expression::{self, Expression};
-use crate::look_at::LookAt;
+use crate::look_at::{Eyes, LookAt};
 use std::collections::BTreeMap;
 
 /// What VRM says of an avatar, or of a motion for avatars.
@@ -30,5 +30,23 @@ impl Figure {
     pub fn morphed_nodes(&self) -> impl Iterator<Item = u32> {
         let morphs = self.expressions.iter().flat_map(|face| &face.morphs);
         morphs.map(|bind| bind.node)
+    }
+
+    /// Whether it can look somewhere: it has a head, and what moves.
+    pub fn can_look(&self) -> bool {
+        let has = |bone| self.bones.contains_key(&bone);
+        let moves = |look: &LookAt| match look.eyes {
+            Eyes::Bones => has(Bone::LEFT_EYE) || has(Bone::RIGHT_EYE),
+            Eyes::Expressions => self.looks().iter().any(Option::is_some),
+        };
+        has(Bone::HEAD) && self.look_at.as_ref().is_some_and(moves)
+    }
+
+    /// The expressions that look up, down, left and right, by number.
+    pub fn looks(&self) -> [Option<u32>; 4] {
+        ["lookUp", "lookDown", "lookLeft", "lookRight"].map(|name| {
+            let mut names = (0u32..).zip(&self.expressions);
+            names.find_map(|(number, face)| (face.name == name).then_some(number))
+        })
     }
 }

@@ -16,8 +16,8 @@
 //! ```
 //!
 //! Clips of a glTF file move its nodes: [`Scene::pose_at`] gives a [`Pose`] at a time of a [`Clip`], and
-//! [`Scene::set_pose`] puts the scene into it. The [`Figure`] of a VRM names bones and expressions: [`Scene::bend`] and
-//! [`Pose::shares`] pose them, and [`Scene::clips_of`] makes clips of another humanoid its own.
+//! [`Scene::set_pose`] puts the scene into it. The [`Figure`] of a VRM names bones and expressions: [`Scene::bend`]
+//! and [`Pose::shares`] pose them, and [`Scene::clips_of`] makes clips of another humanoid its own.
 //!
 //! Files are hostile until proven sound: sizes are checked against [`Limits`] before memory is
 //! planned, trees are walked without recursion, and other files are reached only through
@@ -28,6 +28,7 @@ mod bending;
 mod bone;
 mod camera;
 mod clip;
+mod constraining;
 mod constraint;
 mod decode;
 mod error;
@@ -43,6 +44,7 @@ mod limits;
 mod load;
 mod loading;
 mod look_at;
+mod looking;
 mod material;
 mod matrix;
 mod mesh;

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::constraint;
+use crate::constraining;
 use crate::error::SceneError;
 use crate::format::Format;
 use crate::limits::{self, Allowance, Limits};
@@ -90,7 +90,7 @@ pub fn load_bytes(
 
     // Mend what numbers may break, and say what the file is.
     soundness::mend(&mut scene, &mut loading.notices)?;
-    constraint::follow(&mut scene, &mut loading.notices);
+    constraining::follow(&mut scene, &mut loading.notices);
     if scene.name.is_empty() {
         name.clone_into(&mut scene.name);
     }

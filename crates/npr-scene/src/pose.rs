@@ -23,13 +23,14 @@ pub struct Pose {
     /// Weights of the morphs of nodes' meshes, by node; missing ones at the end count as 0. Of nodes that share a
     /// mesh the last one counts; nodes whose weights a clip of the file moves share none.
     pub weights: BTreeMap<u32, Vec<f32>>,
-    /// Shares of expressions of the scene's figure, 0 to 1, by number. Where there are any, expressions alone decide on
-    /// the morphs that any of them binds, and `weights` on the others.
+    /// Shares of expressions of the scene's figure, 0 to 1, by number. Where there are any, expressions alone decide
+    /// on the morphs that any of them binds, and `weights` on the others.
     pub shares: BTreeMap<u32, f32>,
-    /// The point of the world that the scene's figure looks at; without one its eyes stay as they are. Expressions that
-    /// look and have no share get one.
+    /// The point of the world that the scene's figure looks at; without one its eyes stay as they are. Expressions
+    /// that look and have no share get one.
     pub look_at: Option<[f32; 3]>,
-    /// Turns of nodes beside their parents, by node, as quaternions, which count last: those of [springs](crate::Swinging).
+    /// Turns of nodes beside their parents, by node, as quaternions, which count last: those of
+    /// [springs](crate::Swinging).
     pub swings: BTreeMap<u32, [f32; 4]>,
 }
 
@@ -76,8 +77,8 @@ impl Scene {
         pose
     }
 
-    /// Puts the scene into a pose; what the pose does not name rests, or follows what it is constrained to. The same pose gives the same scene, bit for bit,
-    /// whatever pose it had before.
+    /// Puts the scene into a pose; what the pose does not name rests, or follows what it is constrained to. The same
+    /// pose gives the same scene, bit for bit, whatever pose it had before.
     ///
     /// O(nodes + vertices of meshes with other morph weights x morphs + vertices).
     ///
@@ -107,7 +108,8 @@ impl Scene {
         Err(PoseError::OutOfRange { node })
     }
 
-    /// A pose with what follows from it: where eyes look, then the turns that constraints give, and then those of springs.
+    /// A pose with what follows from it: where eyes look, then the turns that constraints give, and then those of
+    /// springs.
     pub(crate) fn followed<'a>(&self, pose: &'a Pose) -> Cow<'a, Pose> {
         let mut pose = Cow::Borrowed(pose);
         if pose.look_at.is_some() {

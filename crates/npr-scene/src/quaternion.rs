@@ -126,7 +126,8 @@ mod tests {
 
         #[test]
         fn arcs_begin_and_end_at_their_turns(
-            from in prop::array::uniform4(-1f32..1.0).prop_map(unit), to in prop::array::uniform4(-1f32..1.0).prop_map(unit),
+            from in prop::array::uniform4(-1f32..1.0).prop_map(unit),
+            to in prop::array::uniform4(-1f32..1.0).prop_map(unit),
         ) {
             let same = |a: Quaternion, b: Quaternion| a.iter().zip(b).map(|(a, b)| a * b).sum::<f32>().abs();
             prop_assert!(same(on_arc(from, to, 0.0), from) > 0.999_99);

@@ -6,6 +6,7 @@
 mod collider;
 mod swing;
 mod swinging;
+mod vector;
 
 pub use collider::Collider;
 pub use swing::Swing;

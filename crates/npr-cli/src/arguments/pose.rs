@@ -12,8 +12,8 @@ pub struct PoseArguments {
     /// first, where --time or --motion is given; else the scene rests].
     #[arg(long, value_name = "NAME|INDEX", allow_negative_numbers = true)]
     pub clip: Option<String>,
-    /// The time in the clip, in seconds; before its start and after its end it stands still. Pictures of toon materials
-    /// that move are drawn at that time too, in styles that use the scene's hints.
+    /// The time in the clip, in seconds; before its start and after its end it stands still. Pictures of toon
+    /// materials that move are drawn at that time too, in styles that use the scene's hints.
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = time)]
     pub time: Option<f32>,
     /// A file whose clips the figure plays instead of its own: a VRM animation (.vrma), or a .glb or .vrm with bones.

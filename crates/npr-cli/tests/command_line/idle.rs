@@ -768,7 +768,8 @@ fn blots() -> Vec<u8> {
     encoded(&RgbImage::from_fn(64, 64, gray).into(), ImageFormat::Png)
 }
 
-/// A box whose normals run on from its front to its right side, and break elsewhere, and a leaf that nearly touches it.
+/// A box whose normals run on from its front to its right side, and break elsewhere, and a leaf that nearly touches
+/// it.
 const BOX: &[u8] = b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n\
     vn 1 0 1\nvn 0 1 0\nvn 0 -1 0\nvn -1 0 0\nvn 0 0 -1\n\
     f 5//1 6//1 7//1 8//1\nf 6//1 2//1 3//1 7//1\nf 8//2 7//2 3//2 4//2\nf 1//3 2//3 6//3 5//3\n\

@@ -6,8 +6,8 @@ use std::collections::{BTreeMap, VecDeque};
 
 /// The constraints, each behind those that it depends on, and those that are left out since they depend on themselves.
 ///
-/// The turn of a source, and for those that aim also all turns above the source and above the node itself, must be known
-/// before. Constraints that only depend on such a circle stay. O(nodes + constraints).
+/// The turn of a source, and for those that aim also all turns above the source and above the node itself, must be
+/// known before. Constraints that only depend on such a circle stay. O(nodes + constraints).
 pub(crate) fn in_order(
     constraints: Vec<Constraint>,
     nodes: &[Node],

@@ -90,8 +90,8 @@ pub(crate) fn of_0(vrm: &Value, loading: &mut Loading) -> Result<Option<LookAt>,
     }))
 }
 
-/// A vector of VRM 0.x as an object of three numbers, in the space of glTF, whose z runs the other way; what it lacks is
-/// that of `default`. None where one is no number in range.
+/// A vector of VRM 0.x as an object of three numbers, in the space of glTF, whose z runs the other way; what it lacks
+/// is that of `default`. None where one is no number in range.
 pub(crate) fn vector_of_0(said: &Value, default: [f32; 3]) -> Option<[f32; 3]> {
     let [x, y, z] = default;
     let part = |key: &str, default: f32| said.get(key).map_or(Some(default), number);

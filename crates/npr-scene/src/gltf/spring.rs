@@ -478,7 +478,8 @@ fn list<'a>(said: &'a Value, key: &str) -> impl Iterator<Item = &'a Value> {
         .flatten()
 }
 
-/// Of each node the number behind the last that hangs on it: nodes lie in the order of a walk from parents to children.
+/// Of each node the number behind the last that hangs on it: nodes lie in the order of a walk from parents to
+/// children.
 fn subtree_ends(nodes: &[Node]) -> Vec<u32> {
     let mut ends: Vec<u32> = (1u32..).take(nodes.len()).collect();
     for (index, node) in nodes.iter().enumerate().rev() {

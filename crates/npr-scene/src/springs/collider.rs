@@ -1,6 +1,6 @@
 //! What the ends of springs do not enter.
 
-use super::swing::{Vector, length, minus, plus, scaled};
+use super::vector::{Vector, dot, length, minus, plus, scaled};
 use crate::matrix::{self, Matrix};
 
 /// A ball, or all balls along a line, on a node.
@@ -45,9 +45,9 @@ impl Placed {
         plus(self.from, scaled(self.way, share))
     }
 
-    /// Where a ball that lay in it comes to on a bone that swings about `head`: where it touches, on the side that it is on.
-    /// None where it lies outside, or just behind the middle. Where no end of the bone is outside, it is pushed straight
-    /// away from the middle, and so off its length.
+    /// Where a ball that lay in it comes to on a bone that swings about `head`: where it touches, on the side that it
+    /// is on. None where it lies outside, or just behind the middle. Where no end of the bone is outside, it is pushed
+    /// straight away from the middle, and so off its length.
     pub fn pushed(&self, end: Vector, radius: f64, head: Vector) -> Option<Vector> {
         // See how deep it lies.
         let middle = self.middle(end);
@@ -72,8 +72,4 @@ impl Placed {
             false => Some(plus(end, scaled(way, (wanted - far) / far))),
         }
     }
-}
-
-fn dot(a: Vector, b: Vector) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }

@@ -1,6 +1,7 @@
 //! Springs as they swing, step by step.
 
 use super::collider::Placed;
+use super::vector::{Vector, length, minus, plus, scaled};
 use super::{SpringJoint, Springs};
 use crate::matrix::{self, Matrix};
 use crate::pose::Pose;
@@ -8,9 +9,6 @@ use crate::quaternion::{self, NO_TURN, Quaternion};
 use crate::scene::Scene;
 use crate::transform::Transform;
 use std::sync::Arc;
-
-/// A place or a way. In double precision, so that what rests stays.
-pub(super) type Vector = [f64; 3];
 
 /// Way of an end from where it rests, as a share of its length, that counts as none.
 const STILL: f64 = 1e-6;
@@ -81,15 +79,16 @@ impl Swing {
 
     /// Moves on to a pose some seconds later.
     ///
-    /// Ends keep their speed but for drag, are drawn to where they rest and fall, keep their distance from the joint, and
-    /// are pushed out of colliders; joints turn to their ends, those of parents first [VRM spring bone 1.0, algorithm].
-    /// A joint that leaps rests anew.
+    /// Ends keep their speed but for drag, are drawn to where they rest and fall, keep their distance from the joint,
+    /// and are pushed out of colliders; joints turn to their ends, those of parents first [VRM spring bone 1.0,
+    /// algorithm]. A joint that leaps rests anew.
     ///
     /// O(nodes + joints x colliders of their chains).
     ///
-    /// Differs: the published push moves an end off its length, and bringing it back may leave it in the collider; here it
-    /// comes to where many such pushes would bring it, and colliders push up to [`ROUNDS`] times. A collider that swings
-    /// itself stands where it stood in the step before until its own joint has turned. What is all but at rest rests.
+    /// Differs: the published push moves an end off its length, and bringing it back may leave it in the collider;
+    /// here it comes to where many such pushes would bring it, and colliders push up to [`ROUNDS`] times. A collider
+    /// that swings itself stands where it stood in the step before until its own joint has turned. What is all but at
+    /// rest rests.
     pub fn step(&mut self, scene: &Scene, pose: &Pose, seconds: f64) {
         // Stand where the joints were turned last.
         let pose = scene.followed(pose);
@@ -280,20 +279,4 @@ fn place_in(world: &Matrix, place: [f32; 3]) -> Vector {
 /// A place after an affine map of three columns and a way.
 fn carried([a, b, c, d]: &[Vector; 4], [x, y, z]: Vector) -> Vector {
     std::array::from_fn(|i| a[i] * x + b[i] * y + c[i] * z + d[i])
-}
-
-pub(super) fn plus(a: Vector, b: Vector) -> Vector {
-    std::array::from_fn(|i| a[i] + b[i])
-}
-
-pub(super) fn minus(a: Vector, b: Vector) -> Vector {
-    std::array::from_fn(|i| a[i] - b[i])
-}
-
-pub(super) fn scaled(a: Vector, factor: f64) -> Vector {
-    a.map(|v| v * factor)
-}
-
-pub(super) fn length(a: Vector) -> f64 {
-    a.iter().map(|v| v * v).sum::<f64>().sqrt()
 }

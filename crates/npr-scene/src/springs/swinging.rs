@@ -30,14 +30,15 @@ pub struct Swinging {
 }
 
 impl Swinging {
-    /// How the joints of a scene are turned beside their parents at a time in seconds, by node, where `pose_at` gives the
-    /// pose at any time.
+    /// How the joints of a scene are turned beside their parents at a time in seconds, by node, where `pose_at` gives
+    /// the pose at any time.
     ///
-    /// They rest at time 0 and before. From there the pose is taken 60 times a second, and between two such steps joints
-    /// stand on the shorter arc between their turns. So the rate of a film changes nothing, and a part of a film is that of
-    /// the whole. Every hour they rest anew.
+    /// They rest at time 0 and before. From there the pose is taken 60 times a second, and between two such steps
+    /// joints stand on the shorter arc between their turns. So the rate of a film changes nothing, and a part of a
+    /// film is that of the whole. Every hour they rest anew.
     ///
-    /// O(steps since the last time x (nodes + joints)), or since 0 for times longer ago than it keeps: 32 MiB of turns.
+    /// O(steps since the last time x (nodes + joints)), or since 0 for times longer ago than it keeps: 32 MiB of
+    /// turns.
     pub fn at(
         &mut self,
         scene: &Scene,

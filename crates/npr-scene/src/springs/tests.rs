@@ -1,4 +1,4 @@
-use super::swing::{Vector, length, minus, plus, scaled};
+use super::vector::{Vector, length, minus, plus, scaled};
 use super::*;
 use crate::matrix;
 use crate::node::Node;
@@ -153,7 +153,8 @@ proptest! {
         let scene = strand(&rests, &joints);
         let mut swing = Swing::new(&scene, &Pose::default());
         let joints = scene.springs.as_ref().expect("springs").joints.clone();
-        let mut ends: Vec<[Vector; 2]> = joints.iter().map(|joint| [in_world(&scene, joint.node, joint.end); 2]).collect();
+        let rest = |joint: &SpringJoint| [in_world(&scene, joint.node, joint.end); 2];
+        let mut ends: Vec<[Vector; 2]> = joints.iter().map(rest).collect();
         for (way, turn) in walk {
             let pose = carried(&scene, way, turn);
             swing.step(&scene, &pose, STEP_S);

@@ -81,8 +81,8 @@ pub fn humanoid(size: f32, turns: &[[f32; 4]; BODY_BONES]) -> Scene {
 /// A VRM file of the humanoid, with a small body at every bone and a face of two morphs.
 ///
 /// Expressions: `happy` moves the first morph by half and turns the face red, `blink` is binary and moves the second,
-/// `aa` moves the first; `happy` blocks blinks and blends mouths, but in VRM 0.x, which has no overrides. `Wink` is the
-/// file's own.
+/// `aa` moves the first; `happy` blocks blinks and blends mouths, but in VRM 0.x, which has no overrides. `Wink` is
+/// the file's own.
 pub fn avatar(vrm: Vrm) -> Vec<u8> {
     // Stand it up; avatars of VRM 0.x look along -Z.
     let turns = [NO_TURN; BODY_BONES];

@@ -64,8 +64,8 @@ const DRAWN: [&str; 10] = [
     "call",
 ];
 
-/// A VRM file of the humanoid with eyes, hair, a skirt and nodes that follow others, drawn by small bodies. Both versions
-/// are alike, but for a tail with a capsule and a centre, which swings in VRM 1.0 alone.
+/// A VRM file of the humanoid with eyes, hair, a skirt and nodes that follow others, drawn by small bodies. Both
+/// versions are alike, but for a tail with a capsule and a centre, which swings in VRM 1.0 alone.
 pub fn puppet(vrm: Vrm, eyes: Eyes) -> Vec<u8> {
     // Lay out the nodes; avatars of VRM 0.x look along -Z.
     let bones = BODY.iter().map(|(name, parent, way)| {

@@ -154,7 +154,8 @@ fn bones_and_morphs_are_those_of_three_vrm() {
     assert_eq!(counts, [17 + 17 + 18, 12]);
 }
 
-/// Asserts that a file with a word of its text replaced is drawn, and what is said of it beside what is ignored anyway.
+/// Asserts that a file with a word of its text replaced is drawn, and what is said of it beside what is ignored
+/// anyway.
 #[track_caller]
 fn assert_told(file: &[u8], from: &str, to: &str, told: &[&str]) -> Scene {
     let (text, bin) = parts(file);

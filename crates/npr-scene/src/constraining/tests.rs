@@ -1,4 +1,5 @@
 use super::*;
+use crate::constraint::{Constraint, in_order};
 use crate::matrix::{Matrix, turn_of};
 use crate::node::Node;
 use crate::transform::Transform;

@@ -1,5 +1,7 @@
 use super::*;
 use crate::expression::{Expression, MorphBind, Override};
+use crate::figure::Figure;
+use crate::look_at::{LookAt, RangeMap};
 use crate::matrix::turn_of;
 use crate::node::Node;
 use crate::quaternion::unit;
@@ -157,7 +159,9 @@ proptest! {
 
     /// Each piece of a curve is the cubic with the values and slopes of its ends.
     #[test]
-    fn curves_are_splines_through_their_keys(keys in prop::array::uniform3(prop::array::uniform3(-2f32..2.0)), at in 0f32..1.0) {
+    fn curves_are_splines_through_their_keys(
+        keys in prop::array::uniform3(prop::array::uniform3(-2f32..2.0)), at in 0f32..1.0,
+    ) {
         let curve: Vec<[f32; 4]> = keys.iter().zip([0.0, 0.4, 1.0]).map(|([v, a, b], t)| [t, *v, *a, *b]).collect();
         let map = RangeMap { most_deg: 30.0, output: 2.0, curve: curve.clone() };
         let start = curve[0][1];
