@@ -1,16 +1,18 @@
 //! `npr view`: a studio whose pictures are drawn as `npr render` draws them.
 
+mod order;
 mod painter;
 mod save;
 
-use crate::arguments::{RenderArguments, Said, ViewArguments};
+use crate::arguments::{Said, ViewArguments};
 use crate::fault::{Exit, Fault};
 use crate::message::quoted;
 use crate::style_source::StyleSource;
 use npr_stylesheet::{DEFAULT_PRESET, Stated};
 use npr_view::{Host, News, Order, Sheet, Studio, Take, shell_line};
+use order::render_arguments;
 use painter::{Ask, Painter};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 use std::thread;
 
@@ -66,18 +68,6 @@ fn sheet_of(args: &ViewArguments) -> Result<Sheet, Fault> {
         .map_err(|error| Fault::new(Exit::Usage, format!("--set: {error}")))
 }
 
-/// The arguments of `npr render` that draw the same.
-fn render_arguments(args: &ViewArguments, scene: &Path) -> RenderArguments {
-    RenderArguments {
-        scene: Some(scene.to_owned()),
-        output: None,
-        enlarge: 1,
-        debug_layer: None,
-        drawing: args.drawing.clone(),
-        cache: args.cache.clone(),
-    }
-}
-
 impl Desk {
     /// A desk with a painter that has opened the scene of a command line. `wake` is called when there are news.
     fn new(said: &Said<ViewArguments>, wake: Box<dyn Fn() + Send>) -> Result<Self, Fault> {
@@ -106,7 +96,8 @@ impl Desk {
         let is_placed = order.viewpoint.is_some();
         for (id, said) in &self.said.options {
             let is_own = OWN_OPTIONS.contains(&id.as_str());
-            if !is_own && !(is_placed && CAMERA_OPTIONS.contains(&id.as_str())) {
+            let is_replaced = is_placed && CAMERA_OPTIONS.contains(&id.as_str());
+            if !is_own && !is_replaced {
                 words.extend_from_slice(said);
             }
         }

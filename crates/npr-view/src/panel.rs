@@ -237,11 +237,15 @@ fn line(
 ) {
     ui.push_id(key, |ui| {
         let is_changed = (place.is_changed)(key);
+        let is_wide = match &field.form {
+            Form::List { entry, .. } => matches!(**entry, Form::Table(_)),
+            _ => false,
+        };
         let mut edit = None;
         ui.horizontal_top(|ui| {
             // Write the name in a column of its own.
             let indent = ui.cursor().left() - ui.clip_rect().left();
-            let width = (NAME_WIDTH + 24.0 - indent.min(60.0)).max(60.0);
+            let width = (NAME_WIDTH + 24.0 - indent).max(60.0);
             let height = ui.spacing().interact_size.y;
             let hint = format!("{}\n\n{key}", field.text);
             let text = match is_changed {
@@ -258,9 +262,16 @@ fn line(
                 },
             );
 
-            // Show the control, and the way back.
-            ui.vertical(|ui| edit = control(ui, field, key, now.as_ref()));
+            // Show the control beside it.
+            if !is_wide {
+                ui.vertical(|ui| edit = control(ui, field, key, now.as_ref()));
+            }
         });
+
+        // Show a list of tables below, and the way back.
+        if is_wide {
+            ui.indent(key, |ui| edit = control(ui, field, key, now.as_ref()));
+        }
         if is_changed {
             // Lay it over the right end of the line.
             let row = ui.min_rect();

@@ -1,5 +1,6 @@
 //! Values of a style as text, and their places in a tree.
 
+use npr_core::decoding::guard;
 use toml::{Table, Value};
 
 /// The value at a dotted key, if there is one.
@@ -27,7 +28,8 @@ pub(crate) fn text_of(value: &Value) -> String {
 /// Whether a text without quotes is read as that text.
 fn is_bare(text: &str) -> bool {
     let is_plain = !text.is_empty() && text.trim() == text && !text.contains(['\n', '\r']);
-    is_plain && text.parse::<Value>().is_err()
+    let read = guard(|| text.parse::<Value>());
+    is_plain && read.is_ok_and(|read| read.is_err())
 }
 
 /// A value in one line of TOML.
@@ -59,15 +61,15 @@ mod tests {
     use super::*;
 
     fn back(text: &str) -> Value {
-        text.parse()
+        guard(|| text.parse())
+            .expect("no panic")
             .unwrap_or_else(|_| Value::String(text.to_owned()))
     }
 
     #[test]
     fn values_read_back() {
-        let table: Table = "a = [1, 2]\nb = \"x y\"\nc = { d = true }"
-            .parse()
-            .expect("a table");
+        let table = "a = [1, 2]\nb = \"x y\"\nc = { d = true }";
+        let table: Table = guard(|| table.parse()).expect("no panic").expect("a table");
         let texts = [
             "#ff0000", "true", "3", "", " x", "8px", "a\nb", "it's", "\"q\"",
         ];

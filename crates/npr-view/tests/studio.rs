@@ -264,6 +264,27 @@ fn the_style_is_saved_and_the_command_copied() {
 }
 
 #[test]
+fn the_panel_keeps_its_width_whatever_is_unfolded_and_searched() {
+    let changes = [r#"light.extra=[{}]"#, "line.color=#f00", "shade.paper=#f00"];
+    let (mut harness, easel) = studio([1000.0, 800.0], &changes);
+    harness.run_steps(20);
+    let size = easel.0.borrow().orders[0].size;
+    unfold(&mut harness);
+    for words in [
+        "line opacity",
+        "smoke",
+        "direction",
+        "use_scene_hints",
+        "",
+        "ramp",
+    ] {
+        harness.state_mut().search(words);
+        harness.run_steps(10);
+        assert_eq!(harness.state().order().size, size, "{words}");
+    }
+}
+
+#[test]
 fn a_window_of_one_point_shows_and_asks_for_one_pixel() {
     let (mut harness, easel) = studio([1.0, 1.0], &[]);
     harness.run_steps(10);

@@ -1,8 +1,8 @@
 //! The thread that draws what a studio shows.
 
-use super::render_arguments;
+use super::order::order_arguments;
 use super::save;
-use crate::arguments::{Backend, CameraArguments, Point, RenderArguments, Size, ViewArguments};
+use crate::arguments::{Backend, RenderArguments, ViewArguments};
 use crate::device_choice::DeviceChoice;
 use crate::fault::{Exit, Fault};
 use crate::hardware;
@@ -64,31 +64,6 @@ pub struct Painter {
 
 /// A file and when it changed last; `None` where there is none.
 type Watched = (PathBuf, Option<SystemTime>);
-
-/// The arguments of `npr render` that draw an order.
-pub fn order_arguments(args: &ViewArguments, scene: &Path, order: &Order) -> RenderArguments {
-    let mut args = render_arguments(args, scene);
-    let drawing = &mut args.drawing;
-    drawing.look.style = Some(order.style.clone());
-    drawing.look.overrides.clone_from(&order.overrides);
-    drawing.look.background = None;
-    drawing.look.dump_style = false;
-    let [width, height] = order.size;
-    drawing.size = Size { width, height };
-    drawing.quiet = true;
-    drawing.timings = None;
-    if let Some(point) = &order.viewpoint {
-        drawing.camera = CameraArguments {
-            eye: Some(Point(point.eye)),
-            target: Some(Point(point.target)),
-            up: Some(Point(point.up)),
-            fov: Some(point.fov_deg),
-            ortho: point.is_parallel,
-            ..CameraArguments::default()
-        };
-    }
-    args
-}
 
 impl Painter {
     /// A painter of the scene that arguments name, which calls `wake` after each of its news.

@@ -1,6 +1,6 @@
 //! What is taken away from a studio, as files.
 
-use super::painter::order_arguments;
+use super::order::order_arguments;
 use crate::arguments::{LineArguments, LineFormat, LinesArguments, SheetArguments, ViewArguments};
 use crate::fault::{Exit, Fault};
 use crate::lines;

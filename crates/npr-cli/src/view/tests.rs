@@ -6,6 +6,7 @@ use crate::encoder;
 use crate::render;
 use clap::Parser;
 use npr_view::{Picture, Viewpoint};
+use std::path::Path;
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
