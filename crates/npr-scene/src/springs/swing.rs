@@ -86,7 +86,7 @@ impl Swing {
     /// O(nodes + joints x colliders of their chains).
     ///
     /// Differs: the published push moves an end off its length, and bringing it back may leave it in the collider;
-    /// here it comes to where many such pushes would bring it, and colliders push up to [`ROUNDS`] times. A collider
+    /// here it comes to where many such pushes would bring it, and colliders push up to eight times. A collider
     /// that swings itself stands where it stood in the step before until its own joint has turned. What is all but at
     /// rest rests.
     pub fn step(&mut self, scene: &Scene, pose: &Pose, seconds: f64) {
