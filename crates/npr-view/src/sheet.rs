@@ -230,6 +230,14 @@ mod tests {
     }
 
     #[test]
+    fn what_the_rules_of_a_preset_speak_against_is_spelled_out() {
+        let ink = sheet("ink", &["ink.tone=hatch"]);
+        let text = ink.file();
+        assert!(!text.contains("extends"), "{text}");
+        assert!(draws_alike(&read(&text), ink.style()));
+    }
+
+    #[test]
     fn what_is_set_back_is_no_override() {
         let mut toon = sheet("toon", &[]);
         let before = toon.clone();

@@ -203,6 +203,34 @@ fn undo_restores_the_style_to_the_byte_and_redo_brings_it_back() {
 }
 
 #[test]
+fn a_slider_that_is_dragged_is_one_step_to_undo() {
+    let (mut harness, easel) = studio([1000.0, 700.0], &[]);
+    harness.state_mut().search("line.opacity");
+    harness.run_steps(10);
+    let slider = harness.get_by_label("line.opacity").rect();
+    let end = egui::pos2(slider.left() + 92.0, slider.center().y);
+    harness.drag_at(end);
+    harness.run_steps(2);
+    for step in 1..6 {
+        harness.hover_at(end - vec2(10.0 * step as f32, 0.0));
+        harness.run_steps(2);
+    }
+    harness.drop_at(end - vec2(50.0, 0.0));
+    harness.run_steps(40);
+    let opacity = harness.state().sheet().style().line.opacity;
+    let told = harness.state().told();
+    assert!(
+        (0.3..0.7).contains(&opacity),
+        "{opacity} {slider:?} {told:?}"
+    );
+    let last = easel.0.borrow().orders.last().unwrap().overrides.clone();
+    assert_eq!(last, harness.state().sheet().overrides());
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    harness.run_steps(4);
+    assert_eq!(harness.state().sheet().overrides(), [""; 0]);
+}
+
+#[test]
 fn a_drag_turns_the_picture_and_a_full_picture_follows_a_draft() {
     let (mut harness, easel) = studio([900.0, 600.0], &[]);
     harness.run_steps(30);

@@ -135,17 +135,25 @@ fn number(
     now: &Value,
 ) -> Option<Value> {
     let mut number = short(as_number(now));
-    let response = if high - low <= SLIDER_MAX {
+    if high - low > SLIDER_MAX {
+        let response = dragged(ui, &mut number, (low, high), is_whole);
+        name_it(&response, key);
+        return response.changed().then(|| number_value(number, is_whole));
+    }
+    let mut is_changed = false;
+    ui.horizontal(|ui| {
         ui.spacing_mut().slider_width = WIDTH - 20.0;
         let slider = Slider::new(&mut number, low..=high)
+            .show_value(false)
             .logarithmic(low >= 0.0 && high - low > 50.0)
             .smallest_positive(0.01);
-        ui.add(if is_whole { slider.integer() } else { slider })
-    } else {
-        dragged(ui, &mut number, (low, high), is_whole)
-    };
-    name_it(&response, key);
-    response.changed().then(|| number_value(number, is_whole))
+        let slider = ui.add(if is_whole { slider.integer() } else { slider });
+        name_it(&slider, key);
+        let value = dragged(ui, &mut number, (low, high), is_whole);
+        name_it(&value, &format!("number of {key}"));
+        is_changed = slider.changed() || value.changed();
+    });
+    is_changed.then(|| number_value(number, is_whole))
 }
 
 fn dragged(ui: &mut Ui, number: &mut f64, (low, high): (f64, f64), is_whole: bool) -> Response {
