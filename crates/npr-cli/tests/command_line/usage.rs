@@ -66,6 +66,14 @@ fn wrong_command_lines_exit_with_2_and_leave_nothing() {
     Workplace::with_scene().assert_refused(cases);
 }
 
+#[cfg(not(feature = "view"))]
+#[test]
+fn a_build_without_a_window_says_how_to_get_one() {
+    let place = Workplace::with_scene();
+    let outcome = place.npr(&["view", "scene.obj", "--style", "ink"]);
+    outcome.assert_fault(2, "--features view");
+}
+
 #[test]
 fn a_side_beyond_the_limit_exits_with_5() {
     let place = Workplace::with_scene();
