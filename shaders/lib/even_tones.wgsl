@@ -30,7 +30,7 @@ fn evened_around(pixel: vec2<u32>, part: u32) -> Around {
     let high = min(pixel + 2u, window.size);
     for (var y = low.y; y < high.y; y++) {
         for (var x = low.x; x < high.x; x++) {
-            let word = evened[y * window.size.x + x];
+            let word = textureLoad(evened, vec2<u32>(x, y), 0).x;
             if (word & ~(2u * CHANGED - 1u)) != tag_of(part) { continue; }
             let steps = word & (CHANGED - 1u);
             around.least = min(around.least, median_of(word));

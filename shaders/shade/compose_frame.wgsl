@@ -38,7 +38,7 @@
 @group(0) @binding(19) var<uniform> rules: Rules;
 @group(0) @binding(20) var fronts: texture_2d<f32>;
 @group(0) @binding(21) var backs: texture_2d<f32>;
-@group(0) @binding(22) var<storage, read> evened: array<u32>;
+@group(0) @binding(22) var evened: texture_2d<u32>;
 
 //# use lib/texture
 //# use lib/samples

@@ -3,7 +3,6 @@
 // Source  Merriman, Bence & Osher 1992, for edges that are blurred and cut
 // Twin    npr_style::even_tones::even_tones
 //
-//# use lib/grid
 //# use lib/geometry
 //# use lib/window
 
@@ -11,7 +10,6 @@
 @group(0) @binding(1) var<storage, read> parts: array<Part>;
 @group(0) @binding(2) var<storage, read> tone_map: array<u32>;
 @group(0) @binding(3) var tone_flags: texture_2d<u32>;
-@group(0) @binding(4) var<storage, read_write> evened: array<u32>;
 
 //# use lib/tone_word
 
@@ -58,14 +56,14 @@ fn evened_word(pixel: vec2<u32>, word: u32) -> u32 {
     return tag_of(part) | select(CHANGED, 0u, median_of(steps) == tone) | steps;
 }
 
-// One invocation per output pixel.
-@compute @workgroup_size(WG)
-fn main(
-    @builtin(workgroup_id) wid: vec3<u32>,
-    @builtin(num_workgroups) nwg: vec3<u32>,
-    @builtin(local_invocation_id) lid: vec3<u32>,
-) {
-    let element = element_index(wid, nwg, lid, WG);
-    if element >= arrayLength(&evened) { return; }
-    evened[element] = evened_word(pixel_of(element, window.size), tone_map[element]);
+@vertex
+fn vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4<f32> {
+    let corner = vec2<f32>(f32(index & 1u), f32(index >> 1u)) * 4.0 - 1.0;
+    return vec4<f32>(corner, 0.0, 1.0);
+}
+
+@fragment
+fn fragment(@builtin(position) at: vec4<f32>) -> @location(0) u32 {
+    let pixel = vec2<u32>(at.xy);
+    return evened_word(pixel, tone_map[pixel.y * window.size.x + pixel.x]);
 }

@@ -23,7 +23,7 @@
 @group(0) @binding(8) var<storage, read_write> frame: array<u32>;
 @group(0) @binding(9) var<storage, read_write> list: array<atomic<u32>>;
 @group(0) @binding(10) var<storage, read> parts: array<Part>;
-@group(0) @binding(11) var<storage, read> evened: array<u32>;
+@group(0) @binding(11) var evened: texture_2d<u32>;
 
 //# use lib/samples
 //# use lib/ribbon_layer

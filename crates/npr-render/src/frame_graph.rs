@@ -278,17 +278,17 @@ impl FrameGraph {
         self.compute_listed(&shade::COMPOSE_FRAME, &bound, self.list);
     }
 
-    /// Adds the passes that even the tones of the triangles in `ids`; gives what they make, a single word where no part
+    /// Adds the passes that even the tones of the triangles in `ids`; gives what they make, a single texel where no part
     /// asks for it.
     fn even_tones(&mut self, compose: ResourceId, ids: ResourceId, layers: &Layers) -> ResourceId {
         // Make room for it.
         let evens = self.graph.features().meets(Features::EVEN_TONES);
-        let pixels = pixel_count(size_if(evens, self.output));
-        let evened = self.graph.buffer::<u32>("evened tones", pixels);
+        let size = size_if(evens, self.output);
+        let evened = self.graph.image("evened tones", Format::U32, size);
         if !evens {
             return evened;
         }
-        let tone_map = self.graph.buffer::<u32>("tone map", pixels);
+        let tone_map = self.graph.buffer::<u32>("tone map", pixel_count(size));
         let tiles = tiles_of(self.output);
         let tone_flags = self.graph.image("tone flags", Format::U32, tiles);
 
@@ -314,8 +314,8 @@ impl FrameGraph {
         let bound = [window, parts, tone_map];
         self.graph
             .draw(&shade::FLAG_TONES, &bound, &[tone_flags], true);
-        let bound = [window, parts, tone_map, tone_flags, evened];
-        self.graph.compute(&shade::EVEN_TONES, &bound);
+        let bound = [window, parts, tone_map, tone_flags];
+        self.graph.draw(&shade::EVEN_TONES, &bound, &[evened], true);
         evened
     }
 

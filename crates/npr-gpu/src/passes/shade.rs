@@ -124,9 +124,13 @@ pub const EVEN_TONES: Pass = Pass {
         read::<Part>("parts"),
         read::<u32>("tone_map"),
         texture("tone_flags", Format::U32),
-        write::<u32>("evened"),
     ],
-    work: Work::PerElement { of: "evened" },
+    work: Work::Draw {
+        of: "window",
+        fills: true,
+        vertices: 3,
+        targets: &[Format::U32],
+    },
     agreement: Agreement::Texels(0.001),
     twin: |b| {
         let window: Window = b.one(0);
@@ -135,7 +139,8 @@ pub const EVEN_TONES: Pass = Pass {
             parts: b.read(1),
             words: b.read(2),
         };
-        even_tones(&map, b.image(3).texels, b.write(4));
+        let flags = b.image(3).texels;
+        even_tones(&map, flags, b.image_mut(4).texels);
     },
 };
 
@@ -155,7 +160,7 @@ pub const FILL_FRAME: Pass = Pass {
         update::<u32>("frame"),
         append("list"),
         read::<Part>("parts").serving(Features::EVEN_TONES),
-        read::<u32>("evened").serving(Features::EVEN_TONES),
+        texture("evened", Format::U32).serving(Features::EVEN_TONES),
     ],
     work: Work::PerElement { of: "frame" },
     agreement: Agreement::Exact,
@@ -170,7 +175,7 @@ pub const FILL_FRAME: Pass = Pass {
             fronts: b.image(6).texels,
             known: b.read(7),
             parts: b.read(10),
-            evened: b.read(11),
+            evened: b.image(11).texels,
             ..Layers::empty(&view, &window, &settings, &lights, &rules)
         };
         fill(&layers, b.write(8), b.write(9));
@@ -205,7 +210,7 @@ pub const COMPOSE_FRAME: Pass = Pass {
         uniform::<Rules>("rules").serving(Features::BACKDROP),
         texture("fronts", Format::Rgba8).serving(Features::BACKDROP),
         texture("backs", Format::Rgba8).serving(Features::BACKDROP),
-        read::<u32>("evened").serving(Features::EVEN_TONES),
+        texture("evened", Format::U32).serving(Features::EVEN_TONES),
         read::<Triangle>("surfaces").for_twin(),
     ],
     work: Work::PerListed { of: "list" },
@@ -235,7 +240,7 @@ pub const COMPOSE_FRAME: Pass = Pass {
             rules: &rules,
             fronts: b.image(20).texels,
             backs: b.image(21).texels,
-            evened: b.read(22),
+            evened: b.image(22).texels,
         };
         compose(&layers, b.read(13), b.write(14));
     },

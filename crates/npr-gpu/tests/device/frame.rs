@@ -255,7 +255,7 @@ impl Builder {
         self.make_layers("surface_depths", Format::Depth, [SHADOW_SIDE; 2], SHADOWS);
         self.give_smoke(look, size);
         self.make_buffer("tone_map", 4, area(size));
-        self.make_buffer("evened", 4, area(size));
+        self.make_image("evened", Format::U32, size);
         self.make_image("tone_flags", Format::U32, tiles_of(size));
         self.make_buffer("hull", 16, scene.vertices.len());
         self.make_buffer("roles", size_of::<EdgeRole>(), scene.edges.len());
@@ -422,7 +422,9 @@ impl Builder {
         let flag = self.bound(&shade::FLAG_TONES, "window");
         let flags = [self.ids["tone_flags"]];
         self.graph.draw(&shade::FLAG_TONES, &flag, &flags, true);
-        self.compute(&shade::EVEN_TONES);
+        let even = self.bound(&shade::EVEN_TONES, "window");
+        let evened = [self.ids["evened"]];
+        self.graph.draw(&shade::EVEN_TONES, &even, &evened, true);
         self.line_up_backdrop();
         self.compute(&shade::FILL_FRAME);
         self.compute(&shade::COMPOSE_FRAME);

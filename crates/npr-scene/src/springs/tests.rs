@@ -370,6 +370,28 @@ fn ends_lag_behind_and_cuts_begin_anew() {
 }
 
 #[test]
+fn what_swung_rests_to_the_bit() {
+    // Carried away for a while, then left where it is: it swings back, and stands as if it had never swung.
+    let stiff = SpringJoint {
+        stiffness: 4.0,
+        ..PLUMB
+    };
+    let scene = plumb(stiff);
+    let mut swing = Swing::new(&scene, &Pose::default());
+    let rest = swing.turns().to_vec();
+    for step in 1..=20 {
+        let pose = carried(&scene, [0.02 * step as f32, 0.0, 0.0], quaternion::NO_TURN);
+        swing.step(&scene, &pose, STEP_S);
+    }
+    assert_ne!(swing.turns(), rest);
+    let pose = carried(&scene, [0.4, 0.0, 0.0], quaternion::NO_TURN);
+    for _ in 0..600 {
+        swing.step(&scene, &pose, STEP_S);
+    }
+    assert_eq!(swing.turns(), rest);
+}
+
+#[test]
 fn between_steps_joints_stand_between_their_turns() {
     let scene = plumb(SpringJoint {
         gravity: [0.5, 0.0, 0.0],
