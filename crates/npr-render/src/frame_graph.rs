@@ -278,8 +278,8 @@ impl FrameGraph {
         self.compute_listed(&shade::COMPOSE_FRAME, &bound, self.list);
     }
 
-    /// Adds the passes that even the tones of the triangles in `ids`; gives what they make, a single texel where no part
-    /// asks for it.
+    /// Adds the passes that even the tones of the triangles in `ids`; gives what they make, a single texel where no
+    /// part asks for it.
     fn even_tones(&mut self, compose: ResourceId, ids: ResourceId, layers: &Layers) -> ResourceId {
         // Make room for it.
         let evens = self.graph.features().meets(Features::EVEN_TONES);
