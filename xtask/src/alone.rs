@@ -7,17 +7,21 @@ use std::process::Command;
 use anyhow::{Context, Result, ensure};
 
 use crate::file::write_whole;
-use crate::packages::{Package, cargo, members, output};
+use crate::packages::{Package, WINDOWS, cargo, members, output};
 
 /// The target of browsers.
 const BROWSERS: &str = "wasm32-unknown-unknown";
 
-/// Lints every published crate without features, and with each of its features alone.
+/// Lints every published crate without features, and with each of its features alone but for [`WINDOWS`].
 ///
 /// The workspace as a whole hides what a crate lacks when nobody else asks for it.
 pub fn lint_features(root: &Path) -> Result<()> {
     for package in published(root)? {
-        let own = package.features.keys().filter(|name| *name != "default");
+        let is_alone = |name: &&String| {
+            let opens_window = WINDOWS.contains(&(package.name.as_str(), name.as_str()));
+            *name != "default" && !opens_window
+        };
+        let own = package.features.keys().filter(is_alone);
         let alone = own.map(|name| vec!["--features", name.as_str()]);
         for feature in [Vec::new()].into_iter().chain(alone) {
             let name = ["--package", package.name.as_str()];

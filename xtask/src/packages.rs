@@ -61,6 +61,25 @@ pub fn members(root: &Path) -> Result<Vec<Package>> {
     Ok(packages)
 }
 
+/// Features that open a window. Their libraries take minutes to compile, and no test needs them: they are linted with
+/// the workspace.
+pub const WINDOWS: [(&str, &str); 2] = [("npr-view", "window"), ("npr-cli", "view")];
+
+/// Every feature of every member but [`WINDOWS`], as `--features` of cargo takes them.
+pub fn tested_features(root: &Path) -> Result<String> {
+    let mut all = Vec::new();
+    for package in members(root)? {
+        let features = package.features.keys().map(String::as_str);
+        let is_tested = |feature: &&str| !WINDOWS.contains(&(package.name.as_str(), feature));
+        all.extend(
+            features
+                .filter(is_tested)
+                .map(|feature| format!("{}/{feature}", package.name)),
+        );
+    }
+    Ok(all.join(","))
+}
+
 /// With which features a package is built.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Features {

@@ -8,7 +8,7 @@ use std::process::{Command, Stdio};
 
 use anyhow::{Context, Result, bail, ensure};
 
-use crate::packages::{cargo, members, output};
+use crate::packages::{cargo, members, output, tested_features};
 use crate::programs::{Program, run_all};
 use crate::source::rust_files;
 
@@ -27,14 +27,16 @@ struct Tally {
 
 /// Programs whose tests are run: unit tests and folders `tests`, but no examples and no programs without tests, which
 /// lints compile.
-const PROGRAMS: [&str; 3] = ["--workspace", "--all-features", "--tests"];
+const PROGRAMS: [&str; 2] = ["--workspace", "--tests"];
 
-/// Runs every test of the workspace, or what `arguments` ask `cargo test` for, with all features.
+/// Runs every test of the workspace, or what `arguments` ask `cargo test` for, with all features but those of windows.
 pub fn run(root: &Path, arguments: &[&str]) -> Result<()> {
     if !arguments.is_empty() {
         return run_with(root, arguments);
     }
-    let programs = run_programs(root, &PROGRAMS, &[], &[]);
+    let features = tested_features(root)?;
+    let chosen = [&PROGRAMS[..], &["--features", &features]].concat();
+    let programs = run_programs(root, &chosen, &[], &[]);
     let documents = run_with(root, &["--doc"]);
     programs.and(documents)
 }
@@ -132,7 +134,8 @@ fn run_with(root: &Path, arguments: &[&str]) -> Result<()> {
     // Start the tests of the crates.
     let mut command = cargo(root);
     command
-        .args(["test", "--all-features", "--no-fail-fast", "--workspace"])
+        .args(["test", "--no-fail-fast", "--workspace", "--features"])
+        .arg(tested_features(root)?)
         .args(arguments);
     let mut child = command
         .stdout(Stdio::piped())
@@ -187,7 +190,9 @@ pub fn again(root: &Path) -> Result<()> {
     );
 
     // Run them with that seed.
-    run_programs(root, &PROGRAMS, &chosen, &[(SEED, seed.to_string())])
+    let features = tested_features(root)?;
+    let programs = [&PROGRAMS[..], &["--features", &features]].concat();
+    run_programs(root, &programs, &chosen, &[(SEED, seed.to_string())])
 }
 
 /// Where property tests look for their seed.
