@@ -34,9 +34,7 @@ pub fn run(root: &Path, arguments: &[&str]) -> Result<()> {
     if !arguments.is_empty() {
         return run_with(root, arguments);
     }
-    let features = tested_features(root)?;
-    let chosen = [&PROGRAMS[..], &["--features", &features]].concat();
-    let programs = run_programs(root, &chosen, &[], &[]);
+    let programs = run_workspace(root, &[], &[]);
     let documents = run_with(root, &["--doc"]);
     programs.and(documents)
 }
@@ -130,6 +128,13 @@ fn run_programs(
     Ok(())
 }
 
+/// The same for all programs of the workspace.
+fn run_workspace(root: &Path, arguments: &[&str], environment: &[(&str, String)]) -> Result<()> {
+    let features = tested_features(root)?;
+    let chosen = [&PROGRAMS[..], &["--features", &features]].concat();
+    run_programs(root, &chosen, arguments, environment)
+}
+
 fn run_with(root: &Path, arguments: &[&str]) -> Result<()> {
     // Start the tests of the crates.
     let mut command = cargo(root);
@@ -190,9 +195,7 @@ pub fn again(root: &Path) -> Result<()> {
     );
 
     // Run them with that seed.
-    let features = tested_features(root)?;
-    let programs = [&PROGRAMS[..], &["--features", &features]].concat();
-    run_programs(root, &programs, &chosen, &[(SEED, seed.to_string())])
+    run_workspace(root, &chosen, &[(SEED, seed.to_string())])
 }
 
 /// Where property tests look for their seed.

@@ -166,7 +166,7 @@ impl Layers<'_> {
     }
 
     /// Whether the light of a group is evened and nothing else has edges within it.
-    fn is_evened(&self, group: &Group, part: &Part) -> bool {
+    fn is_quiet(&self, group: &Group, part: &Part) -> bool {
         group.evened.is_some() && self.lights.shadow_side == 0 && part.flags & Part::ANGLE == 0
     }
 
@@ -253,7 +253,7 @@ impl Layers<'_> {
     ) -> Sampled {
         // Look at every sample where an edge of the light may go through the group.
         let is_even = known.is_even();
-        if !is_even && !self.is_gentle(part) && !self.is_evened(group, part) {
+        if !is_even && !self.is_gentle(part) && !self.is_quiet(group, part) {
             return self.at_samples(group, (part, paint), corners, known);
         }
 

@@ -54,3 +54,43 @@ impl History {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use npr_stylesheet::Stated;
+    use proptest::prelude::*;
+    use toml::Value;
+
+    const KEYS: [&str; 3] = ["line.opacity", "shade.saturation", "line.width.gain"];
+
+    proptest! {
+        /// Every change of another key is a step; as many steps back lead to the first style, and forth to the last.
+        #[test]
+        fn as_many_steps_back_as_forth_lead_where_they_began(
+            changes in prop::collection::vec((0usize..3, 0u32..5, any::<bool>()), 0..20),
+        ) {
+            let mut sheet = Sheet::new("toon", Stated::preset("toon").expect("a preset"), &[]).expect("a sheet");
+            let (first, mut history) = (sheet.clone(), History::default());
+            for (key, fifths, closes) in changes {
+                let before = sheet.clone();
+                sheet.set(KEYS[key], &Value::Float(f64::from(fifths) / 5.0)).expect("fits");
+                if sheet != before {
+                    history.note(&before, KEYS[key]);
+                }
+                if closes {
+                    history.close();
+                }
+            }
+            let last = sheet.clone();
+            while history.can().0 {
+                history.undo(&mut sheet);
+            }
+            prop_assert_eq!(&sheet, &first);
+            while history.can().1 {
+                history.redo(&mut sheet);
+            }
+            prop_assert_eq!(&sheet, &last);
+        }
+    }
+}

@@ -140,6 +140,7 @@ fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
 
     fn front() -> Viewpoint {
         Viewpoint {
@@ -210,6 +211,36 @@ mod tests {
             let moved = seen(&point, world);
             assert!((moved[0] - now[0] - 0.1).abs() < 1e-4, "{moved:?} {now:?}");
             assert!((moved[1] - now[1] - 0.2).abs() < 1e-4, "{moved:?} {now:?}");
+        }
+    }
+
+    /// What a hand may do to a camera.
+    fn moves() -> impl Strategy<Value = Vec<(u32, [f32; 2])>> {
+        prop::collection::vec((0u32..3, prop::array::uniform2(-1f32..1.0)), 0..12)
+    }
+
+    proptest! {
+        /// Drags turn about the target at one distance and pan it along, zooms change the distance by their factor, and
+        /// whatever comes the picture stands upright.
+        #[test]
+        fn drags_keep_the_distance_and_zooms_change_it(moves in moves(), is_parallel: bool) {
+            let mut point = Viewpoint { is_parallel, ..front() };
+            let mut distance = 5.0;
+            for (kind, way) in moves {
+                let before = point;
+                match kind {
+                    0 => point.orbit(way),
+                    1 => point.pan(way),
+                    _ => {
+                        let factor = 1.0 + 0.5 * way[0];
+                        point.zoom(factor, [0.0, way[1]]);
+                        distance *= factor;
+                    }
+                }
+                prop_assert!((point.distance() / distance - 1.0).abs() < 1e-3, "{point:?}");
+                prop_assert!(kind != 0 || point.target == before.target);
+                prop_assert!(point.camera().axes()[1][1] > 0.0, "{point:?}");
+            }
         }
     }
 

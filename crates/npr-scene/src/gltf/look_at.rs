@@ -41,21 +41,8 @@ pub(crate) fn of_1(vrm: &Value, loading: &mut Loading) -> Result<Option<LookAt>,
     };
     let offset = said.get("offsetFromHeadBone");
     let offset = offset.map_or(Some(OFFSET), numbers::<3>);
-    if offset.is_none() {
-        note(loading, "the offset of looks from the head");
-    }
-    let mut map = |key: &str| {
-        let keys = ["inputMaxValue", "outputScale"];
-        range_map(said.get(format!("rangeMap{key}")), keys, eyes, loading)
-    };
-    Ok(Some(LookAt {
-        eyes,
-        offset: offset.unwrap_or(OFFSET),
-        inner: map("HorizontalInner")?,
-        outer: map("HorizontalOuter")?,
-        down: map("VerticalDown")?,
-        up: map("VerticalUp")?,
-    }))
+    let ranges = ("rangeMap", ["inputMaxValue", "outputScale"]);
+    look_at(said, (eyes, offset), ranges, loading).map(Some)
 }
 
 /// What VRM 0.x says of looks.
@@ -73,21 +60,30 @@ pub(crate) fn of_0(vrm: &Value, loading: &mut Loading) -> Result<Option<LookAt>,
     };
     let offset = said.get("firstPersonBoneOffset");
     let offset = offset.map_or(Some(OFFSET), |offset| vector_of_0(offset, OFFSET));
+    let ranges = ("lookAt", ["xRange", "yRange"]);
+    look_at(said, (eyes, offset), ranges, loading).map(Some)
+}
+
+/// What both versions say alike: an offset, and ranges by names that begin with `prefix`, each with the names of its
+/// greatest input and output.
+fn look_at(
+    said: &Value,
+    (eyes, offset): (Eyes, Option<[f32; 3]>),
+    (prefix, keys): (&str, [&str; 2]),
+    loading: &mut Loading,
+) -> Result<LookAt, SceneError> {
     if offset.is_none() {
         note(loading, "the offset of looks from the head");
     }
-    let mut map = |key: &str| {
-        let keys = ["xRange", "yRange"];
-        range_map(said.get(format!("lookAt{key}")), keys, eyes, loading)
-    };
-    Ok(Some(LookAt {
+    let mut map = |key: &str| range_map(said.get(format!("{prefix}{key}")), keys, eyes, loading);
+    Ok(LookAt {
         eyes,
         offset: offset.unwrap_or(OFFSET),
         inner: map("HorizontalInner")?,
         outer: map("HorizontalOuter")?,
         down: map("VerticalDown")?,
         up: map("VerticalUp")?,
-    }))
+    })
 }
 
 /// A vector of VRM 0.x as an object of three numbers, in the space of glTF, whose z runs the other way; what it lacks

@@ -20,7 +20,8 @@ pub fn fill(layers: &Layers<'_>, frame: &mut [u32], into: &mut [u32]) {
     // Fill row by row.
     let width = layers.window.size[0] as usize;
     let rows = frame.par_chunks_mut(width.max(1)).enumerate();
-    let left = rows.map(|(y, row)| layers.fill_row(y, row));
+    let evens = layers.parts.iter().any(|part| part.tone_reach_px > 0.0);
+    let left = rows.map(|(y, row)| layers.fill_row(y, row, evens));
     let left: Vec<Vec<u32>> = left.collect();
 
     // List what is left.
@@ -283,8 +284,8 @@ fn over(top: [f32; 4], below: [f32; 4]) -> [f32; 4] {
 }
 
 impl Layers<'_> {
-    /// Fills what it can of row `y`; gives the other pixels.
-    fn fill_row(&self, y: usize, row: &mut [u32]) -> Vec<u32> {
+    /// Fills what it can of row `y`; gives the other pixels. `evens` tells whether tones of any part are evened.
+    fn fill_row(&self, y: usize, row: &mut [u32], evens: bool) -> Vec<u32> {
         // Fill runs of plain background at once.
         let width = self.window.size[0] as usize;
         let is_plain = self.compose.background_texture == NONE;
@@ -308,7 +309,7 @@ impl Layers<'_> {
                     *texel = 0;
                     continue;
                 }
-                match self.known_texel(x, y as u32, *texel) {
+                match self.known_texel(x, y as u32, *texel, evens) {
                     Some(known) => *texel = known,
                     None => left.push((y * width) as u32 + x),
                 }
@@ -318,7 +319,7 @@ impl Layers<'_> {
     }
 
     /// What a pixel shows, if all of its samples show the same known colour and nothing lies over them.
-    fn known_texel(&self, x: u32, y: u32, overlay: u32) -> Option<u32> {
+    fn known_texel(&self, x: u32, y: u32, overlay: u32, evens: bool) -> Option<u32> {
         let lines = self.lines_at(x, y, overlay);
         if lines.iter().any(|line| line >> 24 != 0)
             || self.has_smoke(x, y)
@@ -330,7 +331,7 @@ impl Layers<'_> {
         let first = self.texel_of(seen[0])?;
         let mut others = seen[1..].iter();
         let is_one = others.all(|id| *id == seen[0] || self.texel_of(*id) == Some(first));
-        (is_one && self.is_settled(x, y, &seen)).then_some(first)
+        (is_one && (!evens || self.is_settled(x, y, &seen))).then_some(first)
     }
 
     /// The colour of triangle `id`, or of the background for 0, if it is known and the same all over.

@@ -1,0 +1,67 @@
+//! How long the panel takes for a frame of the window, folded and unfolded, and a change of a key.
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use npr_stylesheet::Stated;
+use npr_view::{Host, News, Order, Sheet, Studio, Take};
+use std::hint::black_box;
+use toml::Value;
+
+/// A host that draws nothing.
+struct Idle;
+
+impl Host for Idle {
+    fn style(&mut self, name: &str) -> Result<Stated, String> {
+        Stated::preset(name).map_err(|error| error.to_string())
+    }
+
+    fn open(&mut self, _: &str) {}
+
+    fn draw(&mut self, _: Order) {}
+
+    fn news(&mut self) -> Vec<News> {
+        Vec::new()
+    }
+
+    fn command(&self, order: &Order) -> String {
+        order.options().join(" ")
+    }
+
+    fn save(&mut self, _: Take, _: &Sheet, _: &Order) {}
+}
+
+fn toon() -> Sheet {
+    let stated = Stated::preset("toon").expect("a preset");
+    Sheet::new("toon", stated, &[]).expect("a sheet")
+}
+
+fn show_panel(c: &mut Criterion) {
+    let mut group = c.benchmark_group("panel");
+    for (name, is_unfolded) in [("folded", false), ("unfolded", true)] {
+        let studio = Studio::new(toon(), None, Box::new(Idle));
+        let mut harness = Harness::builder()
+            .with_size(egui::vec2(1280.0, 800.0))
+            .build_ui_state(|ui, studio: &mut Studio| studio.show(ui), studio);
+        if is_unfolded {
+            harness.get_by_label("Unfold all").click();
+            harness.run_steps(32);
+        }
+        group.bench_function(name, |b| b.iter(|| harness.run_steps(1)));
+    }
+    group.finish();
+}
+
+fn set_key(c: &mut Criterion) {
+    let mut sheet = toon();
+    let mut opacity = 0.0;
+    c.bench_function("set", |b| {
+        b.iter(|| {
+            opacity = 1.0 - opacity;
+            sheet.set(black_box("line.opacity"), &Value::Float(opacity))
+        });
+    });
+}
+
+criterion_group!(benches, show_panel, set_key);
+criterion_main!(benches);
