@@ -2,15 +2,15 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::Stdio;
+use std::process::{Command, Stdio};
 
 use anyhow::{Context, Result, ensure};
 
-use crate::packages::cargo;
+use crate::packages::tested_features;
+use crate::programs;
 
 /// An example that writes or prints a file.
 struct Example {
-    package: &'static str,
     name: &'static str,
     /// A file of the project that it reads, where it reads one.
     input: Option<&'static str>,
@@ -24,7 +24,6 @@ struct Example {
 
 const EXAMPLES: [Example; 2] = [
     Example {
-        package: "npr-render",
         name: "embed_wgpu",
         input: Some("assets/still_life.glb"),
         ending: Some("png"),
@@ -32,7 +31,6 @@ const EXAMPLES: [Example; 2] = [
         needs_device: true,
     },
     Example {
-        package: "npr-vector",
         name: "lines_only",
         input: None,
         ending: None,
@@ -42,12 +40,16 @@ const EXAMPLES: [Example; 2] = [
 ];
 
 /// Runs every example into a folder below the target; those that need a device only where one is required, as the
-/// tests do.
+/// tests do. They are compiled with the features of the tests, which share everything else with them then.
 pub fn run(root: &Path) -> Result<()> {
     let folder = root.join("target/examples");
     fs::create_dir_all(&folder)?;
     let has_device = std::env::var("NPR_REQUIRE_GPU").is_ok_and(|value| value == "1");
-    for example in &EXAMPLES {
+    let features = tested_features(root)?;
+    let chosen = ["--workspace", "--features", &features];
+    let names = EXAMPLES.each_ref().map(|example| example.name);
+    let made = programs::examples(root, &chosen, &names)?;
+    for (example, program) in EXAMPLES.iter().zip(made) {
         if example.needs_device && !has_device {
             println!(
                 "examples: {} needs a device; NPR_REQUIRE_GPU=1 runs it",
@@ -55,14 +57,14 @@ pub fn run(root: &Path) -> Result<()> {
             );
             continue;
         }
-        example.run(root, &folder)?;
+        example.run(root, (&program, &folder))?;
         println!("examples: {} runs", example.name);
     }
     Ok(())
 }
 
 impl Example {
-    fn run(&self, root: &Path, folder: &Path) -> Result<()> {
+    fn run(&self, root: &Path, (program, folder): (&Path, &Path)) -> Result<()> {
         // Run it, with a file that is not there yet.
         let file = self
             .ending
@@ -70,10 +72,9 @@ impl Example {
         if let Some(file) = &file {
             let _ = fs::remove_file(file);
         }
-        let mut command = cargo(root);
-        command.args(["run", "--quiet", "--package", self.package]);
-        command.args(["--example", self.name, "--"]);
+        let mut command = Command::new(program);
         command
+            .current_dir(root)
             .args(self.input)
             .args(&file)
             .stderr(Stdio::inherit());

@@ -6,7 +6,7 @@ use std::process::{Command, Stdio};
 use std::sync::{Mutex, mpsc};
 use std::time::{Duration, Instant};
 
-use anyhow::Result;
+use anyhow::{Context, Result};
 use serde::Deserialize;
 
 use crate::packages::{Package, cargo, members, output};
@@ -54,6 +54,28 @@ struct Profile {
 #[derive(Deserialize)]
 struct Target {
     name: String,
+}
+
+/// The program that cargo, called with `arguments`, makes of every one of the examples, in their order. O(messages).
+pub fn examples(root: &Path, arguments: &[&str], names: &[&str]) -> Result<Vec<PathBuf>> {
+    let mut command = cargo(root);
+    command
+        .args(["build", "--message-format", "json-render-diagnostics"])
+        .args(arguments)
+        .args(names.iter().flat_map(|name| ["--example", name]));
+    let messages = output(&mut command)?;
+    let messages = messages.lines().map(serde_json::from_str::<Message>);
+    let messages = messages.collect::<Result<Vec<_>, _>>()?;
+    let made = |name: &&str| {
+        let of_name = |message: &&Message| {
+            let target = message.target.as_ref();
+            message.executable.is_some() && target.is_some_and(|target| target.name == *name)
+        };
+        let message = messages.iter().find(of_name);
+        let executable = message.and_then(|message| message.executable.clone());
+        executable.with_context(|| format!("cargo made no example {name}"))
+    };
+    names.iter().map(made).collect()
 }
 
 impl Program {

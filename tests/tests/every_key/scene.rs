@@ -20,7 +20,7 @@ use npr_stylesheet::{Background, LineForm, Stated, Style};
 use npr_tests::{Object, boxed, placed, scene_of};
 use std::collections::BTreeMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 
 /// Width and height of the pictures.
 const SIZE: [u32; 2] = [96, 72];
@@ -32,7 +32,12 @@ pub struct Studio {
     empty: Model,
     pictures: BTreeMap<String, Picture>,
     fonts: BTreeMap<String, Font>,
+    /// What [`Studio::drawn`] gave, by output and style: keys share their base styles.
+    known: Mutex<BTreeMap<u64, Drawn>>,
 }
+
+/// A drawing as a number, and what is said of it.
+type Drawn = (u64, Vec<String>);
 
 impl Studio {
     pub fn new() -> Self {
@@ -47,20 +52,26 @@ impl Studio {
             fonts: ["a.ttf", "b.ttf"]
                 .map(|name| (name.to_owned(), font()))
                 .into(),
+            known: Mutex::default(),
         }
     }
 
     /// The drawing in a style as a number, and what is said of it; a value that cannot be drawn with is told as an
     /// error.
-    pub fn drawn(&self, output: Output, stated: &Stated) -> (u64, Vec<String>) {
+    pub fn drawn(&self, output: Output, stated: &Stated) -> Drawn {
         let style = stated.style();
+        let asked = number_of(&format!("{output:?} {style:?}"));
+        if let Some(drawn) = self.known.lock().unwrap().get(&asked) {
+            return drawn.clone();
+        }
         let (bytes, notices) = match output {
             Output::Frame(_) | Output::Smoke => self.frame(style, output == Output::Smoke),
             Output::Lines { method, form, fill } => self.lines(style, method, form, fill),
         };
-        let mut hasher = DefaultHasher::new();
-        bytes.hash(&mut hasher);
-        (hasher.finish(), notices)
+        let drawn = (number_of(&bytes), notices);
+        let mut known = self.known.lock().unwrap();
+        known.insert(asked, drawn.clone());
+        drawn
     }
 
     fn frame(&self, style: &Style, is_smoke_alone: bool) -> (Vec<u8>, Vec<String>) {
@@ -174,6 +185,12 @@ impl Studio {
         apply_id_maps(&mut scene, style, &self.pictures).unwrap();
         scene
     }
+}
+
+fn number_of(thing: &impl Hash) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    thing.hash(&mut hasher);
+    hasher.finish()
 }
 
 /// Where everything of the scene was before: the box comes from the left and from above.

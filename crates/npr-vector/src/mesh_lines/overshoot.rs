@@ -11,11 +11,19 @@ use crate::mesh_lines::run::{Run, distance};
 /// Least length of a run that must be left, in pixels: a shorter one is no line with a spur, but a short line.
 const LEAST_LEFT_PX: f64 = 4.0 * DOT_PX;
 
+/// Greatest length of a spur, in pixels, on a line that is long enough for it.
+const LONGEST_PX: f64 = 1.5 * DOT_PX;
+
+/// Greatest length of a spur beyond 8 pixels, as a share of the line with it: an eighth of what stays.
+const SHARE: f64 = 1.0 / 9.0;
+
 /// Runs without spurs; order is kept. Runs must be sampled at most a pen's width apart.
 ///
 /// The end of an open run is taken off up to the place where an end of another run of the kind, object, surface and
 /// visibility touches it, if that is less than 8 pixels from its tip, if its tip touches no other run, and if at
-/// least 32 pixels stay. Ends that were cut at corners stay. O(samples) for lines that do not crowd in one place.
+/// least 32 pixels stay. From lines that stay eight times as long as what goes, up to 12 pixels go: what is an end of
+/// its own on a short line is a slip on a long one. Ends that were cut at corners stay. O(samples) for lines that do
+/// not crowd in one place.
 pub fn cut_overshoot(mut runs: Vec<Run>) -> Vec<Run> {
     let near = Near::new(&runs);
     let spurs: Vec<[usize; 2]> = (0..runs.len())
@@ -74,11 +82,12 @@ impl Near {
         }
 
         // Look for the last place near the tip at which another line ends.
+        let longest = (SHARE * length).clamp(DOT_PX, LONGEST_PX);
         let mut from_tip = 0.0;
         let mut spur = 0;
         for i in 1..=last {
             from_tip += distance(place(i - 1), place(i));
-            if from_tip >= DOT_PX {
+            if from_tip >= longest {
                 break;
             }
             let ends_here = |other: &Sample| other.is_end && run.may_join(&runs[other.run]);
@@ -137,6 +146,20 @@ mod tests {
         let mut cut = corner(6.0, 1.0);
         cut[0].cut = [false, true];
         assert_eq!(length_of_first(cut), 60.0);
+    }
+
+    #[test]
+    fn a_longer_spur_goes_from_a_long_line() {
+        let left = |length: f64, beyond: f64| {
+            length_of_first(vec![
+                straight(0, [0.0, 0.0], 0.0, length),
+                straight(1, [length - beyond, 1.0], FRAC_PI_2, 40.0),
+            ])
+        };
+        assert!((left(100.0, 10.0) - 90.0).abs() < 3.0);
+        assert!((left(300.0, 11.0) - 289.0).abs() < 3.0);
+        assert_eq!(left(70.0, 12.0), 70.0);
+        assert_eq!(left(300.0, 16.0), 300.0);
     }
 
     #[test]
