@@ -30,13 +30,18 @@ pub fn dress(args: &PoseArguments, loaded: &mut Loaded, limits: &Limits) -> Resu
     if let Some(path) = &args.motion {
         take_motion(path, loaded, limits)?;
     }
-    let shares = shares_of(&args.expressions, &loaded.scene)?;
-    loaded.scene.paint_expressions(&shares);
+    paint(&args.expressions, &mut loaded.scene)
+}
+
+/// Gives a scene as it was loaded the colours of expressions.
+pub fn paint(expressions: &[ExpressionShare], scene: &mut Scene) -> Result<(), Fault> {
+    let shares = shares_of(expressions, scene)?;
+    scene.paint_expressions(&shares);
     Ok(())
 }
 
 /// Lets a scene have the clips of a motion instead of its own.
-fn take_motion(path: &Path, loaded: &mut Loaded, limits: &Limits) -> Result<(), Fault> {
+pub fn take_motion(path: &Path, loaded: &mut Loaded, limits: &Limits) -> Result<(), Fault> {
     // Read it, without its pictures.
     let limits = Limits {
         decode_images: false,
@@ -204,11 +209,35 @@ pub struct Posed {
     pub movement: Option<Arc<Movement>>,
     /// What there is to warn of.
     pub warnings: Vec<String>,
-    /// How the user has it stand, and when, where it looks different for every camera.
-    before_camera: Option<(Stance, f32)>,
+    /// How the user has it stand, and when.
+    stance: Stance,
+    time_s: f32,
 }
 
 impl Posed {
+    /// Poses the scene as the user asked for, and says nothing of clips that do not play.
+    pub fn of(
+        args: &PoseArguments,
+        scene: &mut Scene,
+        style: &Style,
+        limits: &Limits,
+    ) -> Result<Self, Fault> {
+        let clip = clip_of(args, scene)?;
+        let stance = Stance::of(args, scene, clip, limits)?;
+        let mut posed = Self {
+            is_posed: !stance.is_rest(),
+            stance,
+            ..Self::default()
+        };
+        posed.move_to(scene, args.time.unwrap_or(0.0), style)?;
+        Ok(posed)
+    }
+
+    /// Whether its figure looks at the camera.
+    pub fn follows_camera(&self) -> bool {
+        self.stance.follows_camera()
+    }
+
     /// Poses the scene for a camera that looks at it, where its figure looks back; gives whether it does.
     pub fn face(
         &mut self,
@@ -216,13 +245,30 @@ impl Posed {
         camera: &Camera,
         style: &Style,
     ) -> Result<bool, RenderError> {
-        let Some((stance, time_s)) = &self.before_camera else {
+        if !self.follows_camera() {
             return Ok(false);
-        };
+        }
         // What there is to warn of was told when it took the pose without a look.
-        let _ = stance.stand(scene, *time_s, Some(camera));
-        self.movement = stance.movement(scene, (*time_s, Some(camera)), style)?;
+        let _ = self.stance.stand(scene, self.time_s, Some(camera));
+        self.movement = self
+            .stance
+            .movement(scene, (self.time_s, Some(camera)), style)?;
         Ok(true)
+    }
+
+    /// Poses the scene as it stands at a time, in seconds, with everything else as it was asked for; no figure looks
+    /// at a camera.
+    pub fn move_to(
+        &mut self,
+        scene: &mut Scene,
+        time_s: f32,
+        style: &Style,
+    ) -> Result<(), RenderError> {
+        self.time_s = time_s;
+        self.warnings.clone_from(&self.stance.warnings);
+        self.warnings.extend(self.stance.stand(scene, time_s, None));
+        self.movement = self.stance.movement(scene, (time_s, None), style)?;
+        Ok(())
     }
 }
 
@@ -234,25 +280,16 @@ pub fn pose(
     style: &Style,
     limits: &Limits,
 ) -> Result<Posed, Fault> {
-    // Take the pose.
     let clip = clip_of(args, scene)?;
-    let stance = Stance::of(args, scene, clip, limits)?;
-    let is_posed = !stance.is_rest();
-    let mut warnings = stance.warnings.clone();
-    if clip.is_none() {
-        let why = why_at_rest(args, scene.clips.len(), is_posed);
-        warnings.extend(why.filter(|_| !flows || args.time.is_none()));
+    let rests = clip.is_none().then_some(scene.clips.len());
+    let mut posed = Posed::of(args, scene, style, limits)?;
+    if let Some(clip_count) = rests {
+        let why = why_at_rest(args, clip_count, posed.is_posed);
+        let why = why.filter(|_| !flows || args.time.is_none());
+        let place = posed.stance.warnings.len();
+        posed.warnings.splice(place..place, why);
     }
-    let time_s = args.time.unwrap_or(0.0);
-    warnings.extend(stance.stand(scene, time_s, None));
-
-    // See where everything was.
-    Ok(Posed {
-        is_posed,
-        movement: stance.movement(scene, (time_s, None), style)?,
-        warnings,
-        before_camera: stance.follows_camera().then_some((stance, time_s)),
-    })
+    Ok(posed)
 }
 
 /// Warns of what needs a figure, for a picture without any scene.

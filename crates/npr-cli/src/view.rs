@@ -1,7 +1,9 @@
 //! `npr view`: a studio whose pictures are drawn as `npr render` draws them.
 
+mod actor;
 mod order;
 mod painter;
+mod playbill;
 mod save;
 
 use crate::arguments::{Said, ViewArguments};
@@ -10,14 +12,14 @@ use crate::message::quoted;
 use crate::style_source::StyleSource;
 use npr_stylesheet::{DEFAULT_PRESET, Stated};
 use npr_view::{Host, News, Order, Sheet, Studio, Take, shell_line};
-use order::render_arguments;
+use order::{pose_of, render_arguments};
 use painter::{Ask, Painter};
 use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 use std::thread;
 
 /// Options that the studio says itself.
-const OWN_OPTIONS: [&str; 7] = [
+const OWN_OPTIONS: [&str; 13] = [
     "style",
     "overrides",
     "background",
@@ -25,6 +27,12 @@ const OWN_OPTIONS: [&str; 7] = [
     "quiet",
     "timings",
     "dump_style",
+    "clip",
+    "time",
+    "motion",
+    "pose",
+    "expressions",
+    "look_at",
 ];
 
 /// Options that say where the camera is.
@@ -34,6 +42,8 @@ const CAMERA_OPTIONS: [&str; 7] = ["eye", "target", "up", "fov", "view", "ortho"
 pub struct Desk {
     said: Said<ViewArguments>,
     scene: PathBuf,
+    /// How often the painter has told that it opened a scene.
+    opened: u64,
     asks: Sender<Ask>,
     news: Receiver<News>,
     /// News that the desk has itself.
@@ -53,7 +63,8 @@ pub fn studio(said: &Said<ViewArguments>, wake: Box<dyn Fn() + Send>) -> Result<
     let is_sized = said.options.iter().any(|(id, _)| id == "size");
     let size = said.args.drawing.size;
     let size = is_sized.then_some([size.width, size.height]);
-    Ok(Studio::new(sheet, size, Box::new(Desk::new(said, wake)?)))
+    let pose = pose_of(&said.args.drawing.pose);
+    Ok(Studio::new(sheet, size, Box::new(Desk::new(said, wake)?)).posed(pose))
 }
 
 /// The style that a command line asks for, with its overrides.
@@ -80,6 +91,7 @@ impl Desk {
         Ok(Self {
             said: said.clone(),
             scene: said.args.scene.clone(),
+            opened: 0,
             asks,
             news,
             own: Vec::new(),
@@ -123,16 +135,17 @@ impl Host for Desk {
     }
 
     fn draw(&mut self, order: Order) {
-        self.ask(Ask::Draw(order));
+        self.ask(Ask::Draw(order, self.opened));
     }
 
     fn news(&mut self) -> Vec<News> {
         let mut all = std::mem::take(&mut self.own);
         loop {
             match self.news.try_recv() {
-                Ok(News::Scene(path)) => {
+                Ok(News::Scene(path, cast)) => {
                     self.scene = PathBuf::from(&path);
-                    all.push(News::Scene(path));
+                    self.opened += 1;
+                    all.push(News::Scene(path, cast));
                 }
                 Ok(news) => all.push(news),
                 Err(TryRecvError::Empty) => return all,

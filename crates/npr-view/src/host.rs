@@ -2,6 +2,7 @@
 
 use npr_stylesheet::Stated;
 
+use crate::pose::{Cast, Pose};
 use crate::sheet::Sheet;
 use crate::value::number_text;
 use crate::viewpoint::Viewpoint;
@@ -17,6 +18,8 @@ pub struct Order {
     pub overrides: Vec<String>,
     /// Where it is seen from; `None` where the host frames the scene by itself.
     pub viewpoint: Option<Viewpoint>,
+    /// How the scene stands.
+    pub pose: Pose,
     /// Width and height in pixels.
     pub size: [u32; 2],
     /// Whether it is for the time being, while something changes.
@@ -24,7 +27,7 @@ pub struct Order {
 }
 
 impl Order {
-    /// The order as options of a command line that draws the same: style, what is changed of it, camera and size.
+    /// The order as options of a command line that draws the same: style, what is changed of it, camera, size and pose.
     pub fn options(&self) -> Vec<String> {
         let mut words: Vec<String> = vec!["--style".to_owned(), self.style.clone()];
         for text in &self.overrides {
@@ -47,6 +50,7 @@ impl Order {
         }
         let [width, height] = self.size;
         words.extend(["--size".to_owned(), format!("{width}x{height}")]);
+        words.extend(self.pose.options());
         words
     }
 }
@@ -77,8 +81,9 @@ pub enum News {
     Fault(String),
     /// Something was done. One line.
     Done(String),
-    /// Another scene is drawn from now on, of this name.
-    Scene(String),
+    /// Another scene is drawn from now on, or the same read anew, of this name, and with this to move. What was ordered
+    /// before and is not drawn yet is drawn no more, but for the first scene.
+    Scene(String, Box<Cast>),
     /// The style file has changed where it lies.
     StyleChanged,
 }
@@ -103,7 +108,7 @@ pub trait Host {
     /// What is wrong with it, in one line.
     fn style(&mut self, name: &str) -> Result<Stated, String>;
 
-    /// Opens a scene in place of the present one; [`News`] tells how that went.
+    /// Opens a scene in place of the present one, or a motion that its figure plays; [`News`] tells how that went.
     fn open(&mut self, path: &str);
 
     /// Draws a picture. One that is asked for later may be drawn in place of it.
@@ -156,13 +161,17 @@ mod tests {
             style: "ink".to_owned(),
             overrides: vec!["line.color=#fff".to_owned()],
             viewpoint: Some(viewpoint),
+            pose: Pose {
+                time_s: Some(0.5),
+                ..Pose::default()
+            },
             size: [64, 48],
             is_draft: false,
         };
         assert_eq!(
             order.options().join(" "),
             "--style ink --set line.color=#fff --eye=-1.5,0.1,0.0000001 --target=0,0,0 --up=0,1,0 --fov 40 --ortho \
-             --size 64x48"
+             --size 64x48 --time=0.5"
         );
     }
 }

@@ -21,6 +21,7 @@ mod history;
 mod host;
 mod pace;
 mod panel;
+mod pose;
 mod sheet;
 mod studio;
 mod value;
@@ -29,6 +30,7 @@ mod viewpoint;
 pub mod window;
 
 pub use host::{Host, News, Order, Picture, Take, shell_line};
+pub use pose::{Cast, Clip, LookAt, Pose};
 pub use sheet::Sheet;
 pub use studio::Studio;
 pub use viewpoint::Viewpoint;

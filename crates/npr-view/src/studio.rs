@@ -1,6 +1,7 @@
 //! All that is seen: the picture, the panel and what is told below.
 
 mod canvas;
+mod timeline;
 
 use egui::{Key, KeyboardShortcut, Modifiers, RichText, TextureHandle, Ui};
 use npr_core::standard_view::StandardView;
@@ -10,8 +11,10 @@ use crate::history::History;
 use crate::host::{Host, News, Order, Picture, Take};
 use crate::pace::Pace;
 use crate::panel::{Edit, Panel};
+use crate::pose::Pose;
 use crate::sheet::Sheet;
 use crate::viewpoint::Viewpoint;
+use timeline::Timeline;
 
 /// Seconds without a change after which the picture is drawn in full.
 const STILL_S: f64 = 0.2;
@@ -28,6 +31,9 @@ pub struct Studio {
     scene: String,
     /// Where the picture is seen from; `None` where the host frames the scene.
     viewpoint: Option<Viewpoint>,
+    /// How the scene stands.
+    pose: Pose,
+    timeline: Timeline,
     /// Width and height of pictures, where they do not follow the window.
     fixed_size: Option<[u32; 2]>,
     pace: Pace,
@@ -58,6 +64,8 @@ impl Studio {
             panel: Panel::default(),
             scene: String::new(),
             viewpoint: None,
+            pose: Pose::default(),
+            timeline: Timeline::default(),
             fixed_size: size,
             pace: Pace::default(),
             change: 1,
@@ -67,6 +75,12 @@ impl Studio {
             shown: None,
             told: None,
         }
+    }
+
+    /// The same studio with a scene that stands in a pose at first.
+    pub fn posed(mut self, pose: Pose) -> Self {
+        self.pose = pose;
+        self
     }
 
     /// The style that is being worked on.
@@ -96,6 +110,7 @@ impl Studio {
             style: self.sheet.name().to_owned(),
             overrides: self.sheet.overrides(),
             viewpoint: self.viewpoint,
+            pose: self.pose.said(),
             size: self.size,
             is_draft: false,
         }
@@ -106,6 +121,7 @@ impl Studio {
         self.take_news(ui);
         self.take_dropped(ui);
         self.take_keys(ui);
+        self.follow_clock(ui);
         let wide = ui.available_width() > PANEL_WIDTH + 80.0;
         if wide {
             egui::Panel::right("panel")
@@ -117,6 +133,7 @@ impl Studio {
         if ui.available_height() > 60.0 {
             egui::Panel::bottom("told").show(ui, |ui| self.show_told(ui));
         }
+        self.show_timeline(ui);
         egui::CentralPanel::default()
             .frame(egui::Frame::NONE)
             .show(ui, |ui| self.show_canvas(ui));
@@ -144,13 +161,18 @@ impl Studio {
                     self.tell_fault(text);
                 }
                 News::Done(text) => self.told = Some((text, false)),
-                News::Scene(name) => {
+                News::Scene(name, cast) => {
                     // Another scene is framed anew; one that has changed is seen from where the user is.
                     if !self.scene.is_empty() {
                         self.viewpoint = self.viewpoint.filter(|_| self.scene == name);
+                        if self.scene != name {
+                            self.pose = Pose::default();
+                        }
+                        self.ordered = None;
                         self.changed(ui);
                     }
                     self.scene = name;
+                    self.take_cast(*cast, ui);
                 }
                 News::StyleChanged => {
                     let name = self.sheet.name().to_owned();
@@ -283,6 +305,8 @@ impl Studio {
         if ui.input(|input| input.events.contains(&egui::Event::Copy)) {
             self.copy_command(ui);
         }
+
+        self.take_time_keys(ui);
 
         // Keys of the camera are those of Blender's numbers.
         for (key, side) in [
@@ -439,11 +463,13 @@ impl Studio {
     /// Asks for a draft while things change, and for the full picture when they are still.
     fn ask(&mut self, ui: &Ui) {
         let now = ui.input(|input| input.time);
-        let is_still =
-            now - self.changed_s >= STILL_S && !ui.input(|input| input.pointer.any_down());
+        let is_still = now - self.changed_s >= STILL_S
+            && !self.plays()
+            && !ui.input(|input| input.pointer.any_down());
         let full = self.order();
-        let has =
-            |order: &Order, shown: &Order| shown.change == order.change && shown.size == order.size;
+        let has = |order: &Order, shown: &Order| {
+            shown.change == order.change && shown.size == order.size && !shown.is_draft
+        };
         let is_done = self
             .shown
             .as_ref()

@@ -6,6 +6,9 @@
     reason = "tests fail by panicking"
 )]
 
+#[path = "studio/timeline.rs"]
+mod timeline;
+
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, vec2};
 use egui_kittest::Harness;

@@ -1,8 +1,11 @@
 //! Orders of a studio as arguments of `npr render`.
 
-use crate::arguments::{CameraArguments, Point, RenderArguments, Size, ViewArguments};
-use npr_view::Order;
-use std::path::Path;
+use crate::arguments::{
+    CameraArguments, ExpressionShare, LookedAt, Point, PoseArguments, RenderArguments, Size,
+    ViewArguments,
+};
+use npr_view::{LookAt, Order, Pose};
+use std::path::{Path, PathBuf};
 
 /// The arguments of `npr render` that draw the same.
 pub fn render_arguments(args: &ViewArguments, scene: &Path) -> RenderArguments {
@@ -26,6 +29,7 @@ pub fn order_arguments(args: &ViewArguments, scene: &Path, order: &Order) -> Ren
     drawing.look.dump_style = false;
     let [width, height] = order.size;
     drawing.size = Size { width, height };
+    drawing.pose = pose_arguments(&order.pose);
     drawing.quiet = true;
     drawing.timings = None;
     if let Some(point) = &order.viewpoint {
@@ -39,4 +43,42 @@ pub fn order_arguments(args: &ViewArguments, scene: &Path, order: &Order) -> Ren
         };
     }
     args
+}
+
+/// The pose of a studio as arguments.
+fn pose_arguments(pose: &Pose) -> PoseArguments {
+    let expression = |(name, share): &(String, f32)| ExpressionShare {
+        name: name.clone(),
+        share: *share,
+    };
+    PoseArguments {
+        clip: pose.clip.clone(),
+        time: pose.time_s,
+        motion: pose.motion.as_ref().map(PathBuf::from),
+        pose: pose.bones.as_ref().map(PathBuf::from),
+        expressions: pose.expressions.iter().map(expression).collect(),
+        look_at: pose.look_at.map(|look_at| match look_at {
+            LookAt::Camera => LookedAt::Camera,
+            LookAt::Place(place) => LookedAt::Place(Point(place)),
+        }),
+    }
+}
+
+/// The pose of a studio that arguments ask for at first.
+pub fn pose_of(args: &PoseArguments) -> Pose {
+    let text = |path: &PathBuf| path.to_string_lossy().into_owned();
+    let share = |asked: &ExpressionShare| (asked.name.clone(), asked.share);
+    // A motion without a clip plays its first.
+    let first = args.motion.as_ref().map(|_| "0".to_owned());
+    Pose {
+        clip: args.clip.clone().or(first),
+        time_s: args.time,
+        motion: args.motion.as_ref().map(text),
+        bones: args.pose.as_ref().map(text),
+        expressions: args.expressions.iter().map(share).collect(),
+        look_at: args.look_at.map(|look_at| match look_at {
+            LookedAt::Camera => LookAt::Camera,
+            LookedAt::Place(place) => LookAt::Place(place.0),
+        }),
+    }
 }

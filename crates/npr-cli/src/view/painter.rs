@@ -1,6 +1,8 @@
 //! The thread that draws what a studio shows.
 
+use super::actor::{Actor, Handed};
 use super::order::order_arguments;
+use super::playbill;
 use super::save;
 use crate::arguments::{Backend, RenderArguments, ViewArguments};
 use crate::device_choice::DeviceChoice;
@@ -14,7 +16,7 @@ use crate::progress::Progress;
 use crate::render::{self, Prepared};
 use crate::source::{Loaded, Source};
 use crate::target::Target;
-use crate::viewpoint::{self, Viewed};
+use crate::viewpoint::{self, Seen, Viewed};
 use npr_core::camera::{Camera, Projection};
 use npr_gpu::engine::Engine;
 use npr_gpu::processor::Processor;
@@ -36,9 +38,9 @@ const KEPT: usize = 2;
 /// What a painter is asked for.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Ask {
-    /// Draw a picture.
-    Draw(Order),
-    /// Open a scene.
+    /// Draw a picture, asked for when so many scenes were known to be opened.
+    Draw(Order, u64),
+    /// Open a scene, or a motion for the figure of the present one.
     Open(PathBuf),
     /// Write the picture of an order, or its lines, into a file.
     Save(Take, Order),
@@ -60,6 +62,18 @@ pub struct Painter {
     /// Whether files of the style have changed since it was read.
     is_stale: Cell<bool>,
     scene: RefCell<PathBuf>,
+    /// The file whose clips the figure of the scene plays.
+    motion: RefCell<Option<PathBuf>>,
+    /// How often a scene was opened.
+    opened: Cell<u64>,
+}
+
+/// A renderer that is kept, with the order that it was made for and the pose that it has.
+struct Kept<'a> {
+    order: Order,
+    style: Style,
+    renderer: Renderer<'a>,
+    handed: Handed,
 }
 
 /// A file and when it changed last; `None` where there is none.
@@ -76,6 +90,8 @@ impl Painter {
         let first = Ask::Open(args.scene.clone());
         Self {
             scene: RefCell::new(args.scene.clone()),
+            opened: Cell::new(0),
+            motion: RefCell::new(args.drawing.pose.motion.clone()),
             args,
             asks,
             news,
@@ -109,7 +125,11 @@ impl Painter {
                     self.save(take, &order);
                     self.next()
                 }
-                Ask::Draw(order) => {
+                // Poses of another scene may not fit; at first there was none.
+                Ask::Draw(_, known) if known < self.opened.get() && self.opened.get() > 1 => {
+                    self.next()
+                }
+                Ask::Draw(order, known) => {
                     let drawn = match &loaded {
                         Some(loaded) => self.draw(engine.as_ref(), loaded, &order),
                         None => Ok(self.next()),
@@ -120,7 +140,7 @@ impl Painter {
                             let text = format!("{}; the processor draws instead", fault.message);
                             self.tell(News::Fault(text));
                             engine = Box::new(Processor);
-                            Ask::Draw(order)
+                            Ask::Draw(order, known)
                         }
                         Err(fault) => {
                             self.tell(News::Fault(fault.message));
@@ -156,23 +176,41 @@ impl Painter {
         (self.wake)();
     }
 
-    /// Loads a scene in place of the one before, which stays where that fails.
+    /// Loads a scene in place of the one before, which stays where that fails; or lets its figure play a motion.
     fn open(&self, path: &Path, loaded: &mut Option<Loaded>) {
+        // Find out what the file is.
         let limits = self.args.drawing.limits.limits();
+        let scene = self.scene.borrow().clone();
+        let is_motion = scene != path && playbill::is_motion(path, loaded.as_ref(), &limits);
+        let (scene, motion) = match is_motion {
+            true => (scene, Some(path.to_owned())),
+            false if scene == path => (scene, self.motion.borrow().clone()),
+            false => (path.to_owned(), None),
+        };
+
+        // Load it.
         let external = self.args.drawing.allow_external.as_deref();
-        let opened = Source::of(path)
+        let opened = Source::of(&scene)
             .load(&limits, external)
             .and_then(|mut found| {
-                pose::dress(&self.args.drawing.pose, &mut found, &limits)?;
+                if let Some(motion) = &motion {
+                    pose::take_motion(motion, &mut found, &limits)?;
+                }
+                found.inputs.extend(self.args.drawing.pose.pose.clone());
                 Ok(found)
             });
         match opened {
             Ok(found) => {
                 *self.scene_files.borrow_mut() = watched(found.inputs.iter().cloned());
+                let has_own_camera = self.args.drawing.camera.camera.is_some();
+                let cast = playbill::cast_of(&found.scene, motion.as_deref(), has_own_camera);
                 *loaded = Some(found);
-                self.scene.replace(path.to_owned());
+                self.motion.replace(motion);
                 self.is_stale.set(true);
-                self.tell(News::Scene(path.to_string_lossy().into_owned()));
+                self.opened.set(self.opened.get() + 1);
+                let name = scene.to_string_lossy().into_owned();
+                self.tell(News::Scene(name, Box::new(cast)));
+                self.scene.replace(scene);
             }
             Err(fault) => {
                 // A file that is written just now is looked at again.
@@ -201,28 +239,32 @@ impl Painter {
         let job = self.job(&args)?;
         self.style_files.replace(watched(job.look.inputs()));
         self.is_stale.set(false);
-        let pose = &args.drawing.pose;
-        let loaded = Loaded {
+        let mut loaded = Loaded {
             scene: loaded.scene.clone(),
             format: loaded.format,
             volume: loaded.volume.clone(),
             inputs: loaded.inputs.clone(),
         };
-        let prepared = render::prepare(&job, loaded, Some(pose), &mut Progress::new(true))?;
+        pose::paint(&args.drawing.pose.expressions, &mut loaded.scene)?;
+        let prepared = render::prepare(&job, loaded, None, &mut Progress::new(true))?;
+        let limits = self.args.drawing.limits.limits();
+        let mut actor = Actor::new(prepared.scene.clone(), limits);
 
         // Draw, and go on with what the preparation serves: drafts may be of a style that is a little off.
         let style = job.look.style.clone();
         let mut kept = VecDeque::new();
         let mut order = first.clone();
         loop {
-            self.draw_one((engine, &prepared), &path, &order, &mut kept)?;
+            let scene = (&prepared, &mut actor);
+            self.draw_one((engine, scene), &path, &order, &mut kept)?;
             let next = self.next();
-            let Ask::Draw(asked) = &next else {
+            let Ask::Draw(asked, _) = &next else {
                 return Ok(next);
             };
             let is_same = asked.style == first.style && asked.overrides == first.overrides;
+            let is_painted_so = asked.pose.expressions == first.pose.expressions;
             let serves = is_same || asked.is_draft && self.serves(&style, &path, asked);
-            if self.is_stale.get() || !serves {
+            if self.is_stale.get() || !serves || !is_painted_so {
                 return Ok(next);
             }
             order = asked.clone();
@@ -250,47 +292,66 @@ impl Painter {
     /// Draws one picture, with a renderer that is kept for the next.
     fn draw_one<'a>(
         &self,
-        (engine, prepared): (&'a dyn Engine, &'a Prepared),
+        (engine, (prepared, actor)): (&'a dyn Engine, (&'a Prepared, &mut Actor)),
         path: &Path,
         order: &Order,
-        kept: &mut VecDeque<(Order, Renderer<'a>)>,
+        kept: &mut VecDeque<Kept<'a>>,
     ) -> Result<(), Fault> {
         // Find the renderer of style and size, or make it.
         let start = Instant::now();
         let args = order_arguments(&self.args, path, order);
-        let draws = |(other, _): &(Order, Renderer<'_>)| {
+        let draws = |other: &Kept<'_>| {
+            let other = &other.order;
             other.size == order.size
                 && other.style == order.style
                 && other.overrides == order.overrides
         };
-        let mut renderer = match kept.iter().position(draws) {
-            Some(place) => kept.remove(place),
-            None => None,
-        };
-        if renderer.is_none() {
-            let job = self.job(&args)?;
-            let options = RendererOptions {
-                smoke: prepared.smoke.clone(),
-                ..job.options.clone()
-            };
-            let made = prepared.renderer(engine, (&job.look.style, &options))?;
-            renderer = Some((order.clone(), made));
-        }
-        let Some((_, mut renderer)) = renderer else {
-            return Ok(());
+        let found = kept.iter().position(draws);
+        let found = found.and_then(|place| kept.remove(place));
+        let mut found = match found {
+            Some(found) => found,
+            None => {
+                let job = self.job(&args)?;
+                let style = job.look.style;
+                let options = RendererOptions {
+                    smoke: prepared.smoke.clone(),
+                    ..job.options
+                };
+                Kept {
+                    order: order.clone(),
+                    renderer: prepared.renderer(engine, (&style, &options))?,
+                    style,
+                    handed: Handed::default(),
+                }
+            }
         };
 
+        // Place the camera, and pose the scene for it.
+        let (pose, style) = (&args.drawing.pose, &found.style);
+        actor.stand(pose, style)?;
+        let camera =
+            |seen: &Seen<'_>| viewpoint::camera(&args.drawing.camera, seen, args.drawing.size);
+        let (camera, viewpoint) = match order.viewpoint {
+            Some(point) => (camera(&prepared.seen()?)?, point),
+            None => {
+                let seen = actor.seen(prepared)?;
+                let camera = camera(&seen)?;
+                let point = Viewpoint::of(&about_middle(camera, seen.bounds()));
+                (camera, point)
+            }
+        };
+        actor.face(&camera, style)?;
+        let seconds = pose.time.unwrap_or(0.0);
+        actor.hand_to(&mut found.renderer, &mut found.handed, seconds)?;
+
         // Draw.
-        let seen = prepared.seen()?;
-        let camera = viewpoint::camera(&args.drawing.camera, &seen, args.drawing.size)?;
-        let frame = renderer.draw(&camera)?;
-        kept.push_front((order.clone(), renderer));
+        let mut frame = found.renderer.draw(&camera)?;
+        kept.push_front(found);
         kept.truncate(KEPT);
+        frame.notices.extend_from_slice(actor.warnings());
         self.tell(News::Picture(Box::new(Picture {
             rgba: frame.rgba,
-            viewpoint: order
-                .viewpoint
-                .unwrap_or_else(|| Viewpoint::of(&about_middle(camera, seen.bounds()))),
+            viewpoint,
             engine: engine.describe(),
             seconds: start.elapsed().as_secs_f32(),
             notices: frame.notices,
@@ -331,7 +392,7 @@ impl Painter {
 
 /// Adds what is asked for; a picture takes the place of one that waits at the end.
 fn push(queue: &mut VecDeque<Ask>, ask: Ask) {
-    if matches!((queue.back(), &ask), (Some(Ask::Draw(_)), Ask::Draw(_))) {
+    if matches!((queue.back(), &ask), (Some(Ask::Draw(..)), Ask::Draw(..))) {
         queue.pop_back();
     }
     queue.push_back(ask);

@@ -5,10 +5,12 @@ use crate::arguments::{Arguments, Command};
 use crate::encoder;
 use crate::render;
 use clap::Parser;
-use npr_view::{Picture, Viewpoint};
+use npr_view::{Picture, Pose, Viewpoint};
 use std::path::Path;
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
+
+mod moments;
 
 /// A box on a plate.
 const OBJ: &str = "o Box\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n\
@@ -23,9 +25,17 @@ struct Shop {
 impl Shop {
     /// A desk of a command line after `npr view box.obj`.
     fn new(options: &str) -> Self {
+        Self::of(&[("box.obj", OBJ.as_bytes())], options)
+    }
+
+    /// A desk of a command line that shows the first of some files; `@` in options stands for their folder.
+    fn of(files: &[(&str, &[u8])], options: &str) -> Self {
         let folder = tempfile::tempdir().expect("a folder");
-        write(&folder.path().join("box.obj"), OBJ);
-        let scene = folder.path().join("box.obj");
+        for (name, bytes) in files {
+            put(&folder.path().join(name), bytes);
+        }
+        let scene = folder.path().join(files[0].0);
+        let options = options.replace('@', &folder.path().to_string_lossy());
         let mut words = vec!["npr".into(), "view".into(), scene.into_os_string()];
         words.extend(options.split_whitespace().map(Into::into));
         let parsed = Arguments::try_parse_from(words).expect("a right line");
@@ -83,8 +93,12 @@ impl Shop {
 }
 
 fn write(path: &Path, text: &str) {
+    put(path, text.as_bytes());
+}
+
+fn put(path: &Path, bytes: &[u8]) {
     let output = crate::output::Output::of(path).expect("a place");
-    output.write(text.as_bytes()).expect("room");
+    output.write(bytes).expect("room");
 }
 
 fn order(overrides: &[&str], viewpoint: Option<Viewpoint>) -> Order {
@@ -93,6 +107,7 @@ fn order(overrides: &[&str], viewpoint: Option<Viewpoint>) -> Order {
         style: "ink".to_owned(),
         overrides: overrides.iter().map(|text| (*text).to_owned()).collect(),
         viewpoint,
+        pose: Pose::default(),
         size: [120, 90],
         is_draft: false,
     }
@@ -182,7 +197,7 @@ fn files_that_change_are_read_anew() {
     let first = shop.picture(&order(&[], None));
     write(&shop.path("box.obj"), &OBJ.replace("1 1 1", "1 3 1"));
     let scene = shop.wait(|news| match news {
-        News::Scene(path) => Some(path),
+        News::Scene(path, _) => Some(path),
         _ => None,
     });
     assert!(scene.ends_with("box.obj"));

@@ -1,0 +1,113 @@
+//! How a scene stands in a picture, and what there is of it to choose from.
+
+use crate::value::number_text;
+
+/// How a scene stands, as options of a command line say it.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Pose {
+    /// The clip that plays, as `--clip` names it; none where the scene rests.
+    pub clip: Option<String>,
+    /// The time that is drawn, in seconds.
+    pub time_s: Option<f32>,
+    /// The file whose clips a figure plays.
+    pub motion: Option<String>,
+    /// The file of bones that are turned.
+    pub bones: Option<String>,
+    /// How much expressions of a figure show, 0 to 1, by their names.
+    pub expressions: Vec<(String, f32)>,
+    /// What a figure looks at; none where its eyes stay as they are.
+    pub look_at: Option<LookAt>,
+}
+
+/// What a figure looks at.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum LookAt {
+    /// The eye of the camera.
+    Camera,
+    /// A point of the world.
+    Place([f32; 3]),
+}
+
+impl Pose {
+    /// The pose without what it does not show: a motion of which nothing plays.
+    pub(crate) fn said(&self) -> Self {
+        Self {
+            motion: self.motion.clone().filter(|_| self.clip.is_some()),
+            ..self.clone()
+        }
+    }
+
+    /// The pose as options of a command line.
+    pub fn options(&self) -> Vec<String> {
+        let mut words = Vec::new();
+        let named = [
+            ("motion", &self.motion),
+            ("pose", &self.bones),
+            ("clip", &self.clip),
+        ];
+        for (option, name) in named {
+            words.extend(name.iter().map(|name| format!("--{option}={name}")));
+        }
+        words.extend(self.time_s.map(|time_s| format!("--time={time_s}")));
+        for (name, share) in &self.expressions {
+            let share = number_text(f64::from(*share));
+            words.push(format!("--expression={name}={share}"));
+        }
+        words.extend(self.look_at.map(|look_at| match look_at {
+            LookAt::Camera => "--look-at=camera".to_owned(),
+            LookAt::Place([x, y, z]) => format!("--look-at={x},{y},{z}"),
+        }));
+        words
+    }
+}
+
+/// What of a scene can move.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Cast {
+    /// Its clips, or those of the motion that its figure plays.
+    pub clips: Vec<Clip>,
+    /// Whether pictures on its surfaces move in time, besides clips.
+    pub flows: bool,
+    /// The file of the motion, where one is played.
+    pub motion: Option<String>,
+    /// Whether pictures are seen by a camera of the file, which clips may move.
+    pub has_own_camera: bool,
+}
+
+/// A clip of a scene.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Clip {
+    /// What `--clip` calls it: its name, or its number where the name does not tell it from others.
+    pub name: String,
+    /// How long it is, in seconds.
+    pub seconds: f32,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pose_is_said_by_options() {
+        assert_eq!(Pose::default().options(), [""; 0]);
+        let pose = Pose {
+            clip: Some("-Walk 2".to_owned()),
+            time_s: Some(-0.1),
+            motion: Some("a b.vrma".to_owned()),
+            bones: Some("bow.json".to_owned()),
+            expressions: vec![("happy".to_owned(), 0.3)],
+            look_at: Some(LookAt::Place([0.0, -1.5, 2.0])),
+        };
+        assert_eq!(
+            pose.options(),
+            [
+                "--motion=a b.vrma",
+                "--pose=bow.json",
+                "--clip=-Walk 2",
+                "--time=-0.1",
+                "--expression=happy=0.3",
+                "--look-at=0,-1.5,2",
+            ]
+        );
+    }
+}
