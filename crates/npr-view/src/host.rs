@@ -5,6 +5,7 @@ use npr_stylesheet::Stated;
 use crate::sheet::Sheet;
 use crate::value::number_text;
 use crate::viewpoint::Viewpoint;
+use crate::why::{Answer, Question};
 
 /// A picture that is asked for.
 #[derive(Debug, Clone, PartialEq)]
@@ -81,6 +82,8 @@ pub enum News {
     Scene(String),
     /// The style file has changed where it lies.
     StyleChanged,
+    /// What is at a place of a picture.
+    Pointed(Box<Answer>),
 }
 
 /// What is taken away from a studio.
@@ -108,6 +111,9 @@ pub trait Host {
 
     /// Draws a picture. One that is asked for later may be drawn in place of it.
     fn draw(&mut self, order: Order);
+
+    /// Finds out what is at a place of a picture; [`News::Pointed`] tells it.
+    fn point_at(&mut self, question: Question);
 
     /// What happened since the last call.
     fn news(&mut self) -> Vec<News>;

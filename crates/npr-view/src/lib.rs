@@ -25,6 +25,7 @@ mod sheet;
 mod studio;
 mod value;
 mod viewpoint;
+mod why;
 #[cfg(feature = "window")]
 pub mod window;
 
@@ -32,3 +33,4 @@ pub use host::{Host, News, Order, Picture, Take, shell_line};
 pub use sheet::Sheet;
 pub use studio::Studio;
 pub use viewpoint::Viewpoint;
+pub use why::{Answer, Question, Remedy, ToldFact, ToldLine, ToldPart};

@@ -1,6 +1,7 @@
 //! All that is seen: the picture, the panel and what is told below.
 
 mod canvas;
+mod why;
 
 use egui::{Key, KeyboardShortcut, Modifiers, RichText, TextureHandle, Ui};
 use npr_core::standard_view::StandardView;
@@ -42,6 +43,8 @@ pub struct Studio {
     shown: Option<(Picture, TextureHandle)>,
     /// What is told, and whether it is a fault.
     told: Option<(String, bool)>,
+    /// What was asked about the picture.
+    asked: why::Asked,
 }
 
 impl Studio {
@@ -66,6 +69,7 @@ impl Studio {
             size: size.unwrap_or([1, 1]),
             shown: None,
             told: None,
+            asked: why::Asked::default(),
         }
     }
 
@@ -152,6 +156,7 @@ impl Studio {
                     }
                     self.scene = name;
                 }
+                News::Pointed(answer) => self.asked.take(*answer),
                 News::StyleChanged => {
                     let name = self.sheet.name().to_owned();
                     self.take_style(&name, ui);

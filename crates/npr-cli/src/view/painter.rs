@@ -2,6 +2,7 @@
 
 use super::order::order_arguments;
 use super::save;
+use super::why;
 use crate::arguments::{Backend, RenderArguments, ViewArguments};
 use crate::device_choice::DeviceChoice;
 use crate::fault::{Exit, Fault};
@@ -18,9 +19,9 @@ use crate::viewpoint::{self, Viewed};
 use npr_core::camera::{Camera, Projection};
 use npr_gpu::engine::Engine;
 use npr_gpu::processor::Processor;
-use npr_render::{Renderer, RendererOptions};
+use npr_render::{Renderer, RendererOptions, Spot};
 use npr_stylesheet::Style;
-use npr_view::{News, Order, Picture, Take, Viewpoint};
+use npr_view::{News, Order, Picture, Question, Take, Viewpoint};
 use std::cell::{Cell, RefCell};
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
@@ -40,6 +41,8 @@ pub enum Ask {
     Draw(Order),
     /// Open a scene.
     Open(PathBuf),
+    /// Tell what is at a place of a picture.
+    PointAt(Question),
     /// Write the picture of an order, or its lines, into a file.
     Save(Take, Order),
     /// Nobody asks any more.
@@ -105,6 +108,8 @@ impl Painter {
                     self.open(&path, &mut loaded);
                     self.next()
                 }
+                // Only who draws a picture knows what is on it.
+                Ask::PointAt(_) => self.next(),
                 Ask::Save(take, order) => {
                     self.save(take, &order);
                     self.next()
@@ -216,7 +221,7 @@ impl Painter {
         let mut order = first.clone();
         loop {
             self.draw_one((engine, &prepared), &path, &order, &mut kept)?;
-            let next = self.next();
+            let next = self.answer((engine, &prepared), &path, &mut kept);
             let Ask::Draw(asked) = &next else {
                 return Ok(next);
             };
@@ -227,6 +232,53 @@ impl Painter {
             }
             order = asked.clone();
         }
+    }
+
+    /// Tells what is on the pictures that were drawn until something else is asked for, and gives that.
+    fn answer<'a>(
+        &self,
+        (engine, prepared): (&'a dyn Engine, &'a Prepared),
+        path: &Path,
+        kept: &mut VecDeque<(Order, Renderer<'a>)>,
+    ) -> Ask {
+        loop {
+            let question = match self.next() {
+                Ask::PointAt(question) => question,
+                other => return other,
+            };
+            let told = self.point_at((engine, prepared), path, &question, kept);
+            if let Err(fault) = told {
+                self.tell(News::Fault(fault.message));
+            }
+        }
+    }
+
+    fn point_at<'a>(
+        &self,
+        (engine, prepared): (&'a dyn Engine, &'a Prepared),
+        path: &Path,
+        question: &Question,
+        kept: &mut VecDeque<(Order, Renderer<'a>)>,
+    ) -> Result<(), Fault> {
+        // Take the renderer of the picture, and its camera.
+        let order = &question.order;
+        let args = order_arguments(&self.args, path, order);
+        let style = self.job(&args)?.look.style;
+        let mut renderer = self.renderer((engine, prepared), (&args, order), kept)?;
+        let seen = prepared.seen()?;
+        let camera = viewpoint::camera(&args.drawing.camera, &seen, args.drawing.size)?;
+
+        // Ask it.
+        let spot = Spot {
+            place: question.place.map(f64::from),
+            reach_px: f64::from(question.reach_px),
+        };
+        let pointed = renderer.point_at(&camera, spot)?;
+        kept.push_front((order.clone(), renderer));
+        kept.truncate(KEPT);
+        let answer = why::answer(question, &style, pointed);
+        self.tell(News::Pointed(Box::new(answer)));
+        Ok(())
     }
 
     fn job<'a>(&self, args: &'a RenderArguments) -> Result<Job<'a>, Fault> {
@@ -247,6 +299,30 @@ impl Painter {
             && asked.curve_sources().eq(style.curve_sources())
     }
 
+    /// The renderer of an order's style and size: one that is kept, which is taken out, or a new one.
+    fn renderer<'a>(
+        &self,
+        (engine, prepared): (&'a dyn Engine, &'a Prepared),
+        (args, order): (&RenderArguments, &Order),
+        kept: &mut VecDeque<(Order, Renderer<'a>)>,
+    ) -> Result<Renderer<'a>, Fault> {
+        let draws = |(other, _): &(Order, Renderer<'_>)| {
+            other.size == order.size
+                && other.style == order.style
+                && other.overrides == order.overrides
+        };
+        let found = kept.iter().position(draws);
+        if let Some((_, renderer)) = found.and_then(|place| kept.remove(place)) {
+            return Ok(renderer);
+        }
+        let job = self.job(args)?;
+        let options = RendererOptions {
+            smoke: prepared.smoke.clone(),
+            ..job.options.clone()
+        };
+        Ok(prepared.renderer(engine, (&job.look.style, &options))?)
+    }
+
     /// Draws one picture, with a renderer that is kept for the next.
     fn draw_one<'a>(
         &self,
@@ -255,30 +331,10 @@ impl Painter {
         order: &Order,
         kept: &mut VecDeque<(Order, Renderer<'a>)>,
     ) -> Result<(), Fault> {
-        // Find the renderer of style and size, or make it.
+        // Find the renderer, or make it.
         let start = Instant::now();
         let args = order_arguments(&self.args, path, order);
-        let draws = |(other, _): &(Order, Renderer<'_>)| {
-            other.size == order.size
-                && other.style == order.style
-                && other.overrides == order.overrides
-        };
-        let mut renderer = match kept.iter().position(draws) {
-            Some(place) => kept.remove(place),
-            None => None,
-        };
-        if renderer.is_none() {
-            let job = self.job(&args)?;
-            let options = RendererOptions {
-                smoke: prepared.smoke.clone(),
-                ..job.options.clone()
-            };
-            let made = prepared.renderer(engine, (&job.look.style, &options))?;
-            renderer = Some((order.clone(), made));
-        }
-        let Some((_, mut renderer)) = renderer else {
-            return Ok(());
-        };
+        let mut renderer = self.renderer((engine, prepared), (&args, order), kept)?;
 
         // Draw.
         let seen = prepared.seen()?;
