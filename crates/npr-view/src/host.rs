@@ -5,7 +5,7 @@ use npr_stylesheet::Stated;
 use crate::sheet::Sheet;
 use crate::value::number_text;
 use crate::viewpoint::Viewpoint;
-use crate::why::{Answer, Question};
+use crate::why::Answer;
 
 /// A picture that is asked for.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,6 +50,17 @@ impl Order {
         words.extend(["--size".to_owned(), format!("{width}x{height}")]);
         words
     }
+}
+
+/// What is at a place of a picture?
+#[derive(Debug, Clone, PartialEq)]
+pub struct Question {
+    /// The picture.
+    pub order: Order,
+    /// The place in its pixels, from the top left corner, y down.
+    pub place: [f32; 2],
+    /// How far from there a line may be that is meant, in pixels.
+    pub reach_px: f32,
 }
 
 /// A picture that was drawn.

@@ -29,8 +29,8 @@ mod why;
 #[cfg(feature = "window")]
 pub mod window;
 
-pub use host::{Host, News, Order, Picture, Take, shell_line};
+pub use host::{Host, News, Order, Picture, Question, Take, shell_line};
 pub use sheet::Sheet;
 pub use studio::Studio;
 pub use viewpoint::Viewpoint;
-pub use why::{Answer, Question, Remedy, ToldFact, ToldLine, ToldPart};
+pub use why::{Answer, Remedy, ToldFact, ToldLine, ToldPart};

@@ -13,6 +13,7 @@ use crate::pace::Pace;
 use crate::panel::{Edit, Panel};
 use crate::sheet::Sheet;
 use crate::viewpoint::Viewpoint;
+use crate::why::Asked;
 
 /// Seconds without a change after which the picture is drawn in full.
 const STILL_S: f64 = 0.2;
@@ -44,7 +45,7 @@ pub struct Studio {
     /// What is told, and whether it is a fault.
     told: Option<(String, bool)>,
     /// What was asked about the picture.
-    asked: why::Asked,
+    asked: Asked,
 }
 
 impl Studio {
@@ -69,7 +70,7 @@ impl Studio {
             size: size.unwrap_or([1, 1]),
             shown: None,
             told: None,
-            asked: why::Asked::default(),
+            asked: Asked::default(),
         }
     }
 

@@ -1,20 +1,9 @@
 //! Why a line is there: what a studio asks its host, and what it is told.
 
+use egui::Pos2;
 use toml::{Table, Value};
 
-use crate::host::Order;
 use crate::sheet::Sheet;
-
-/// What is at a place of a picture?
-#[derive(Debug, Clone, PartialEq)]
-pub struct Question {
-    /// The picture.
-    pub order: Order,
-    /// The place in its pixels, from the top left corner, y down.
-    pub place: [f32; 2],
-    /// How far from there a line may be that is meant, in pixels.
-    pub reach_px: f32,
-}
 
 /// What is at a place of a picture.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -73,6 +62,30 @@ pub enum Remedy {
     Key(String),
     /// A rule without lines for its part.
     Rule,
+}
+
+/// What was asked about the picture, and what was told.
+#[derive(Default)]
+pub(crate) struct Asked {
+    /// The picture that was asked about, by its change, and where the click was.
+    pub open: Option<(u64, Pos2)>,
+    /// Counts questions.
+    pub number: u32,
+    pub answer: Option<Answer>,
+}
+
+impl Asked {
+    /// Takes what the host tells, unless something else was asked since.
+    pub fn take(&mut self, answer: Answer) {
+        if self.open.is_some_and(|(change, _)| change == answer.change) {
+            self.answer = Some(answer);
+        }
+    }
+
+    /// Forgets it all.
+    pub fn clear(&mut self) {
+        (self.open, self.answer) = (None, None);
+    }
 }
 
 impl Remedy {

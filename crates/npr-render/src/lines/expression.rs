@@ -222,8 +222,8 @@ impl Expression {
     }
 
     /// Draws the visible strokes so for which `manner_of` gives the number of a manner, in a picture of `size` pixels.
-    /// After a frame `before` what was drawn there is a stub when it is shorter. `watch` sees them after every step that
-    /// changes widths.
+    /// After a frame `before` what was drawn there is a stub when it is shorter. `watch` sees them after every step
+    /// that changes widths.
     ///
     /// Stubs and specks go before ends move, as what is short is about lines and not about pens. Tapers follow the
     /// ends; copies have the tapers of their line; and each copy is dashed for itself.

@@ -4,38 +4,15 @@ use egui::{Color32, Pos2, Rect, RichText, Stroke, Ui};
 use toml::{Table, Value};
 
 use super::Studio;
+use crate::host::Question;
 use crate::panel::Edit;
-use crate::why::{Answer, Question, ToldLine, with_rule};
+use crate::why::{Answer, ToldLine, with_rule};
 
 /// How far from a line a click may be that means it, in points.
 const REACH: f32 = 6.0;
 
 /// Width of the card, in points.
 const CARD_WIDTH: f32 = 330.0;
-
-/// What was asked about the picture, and what was told.
-#[derive(Default)]
-pub(super) struct Asked {
-    /// The picture that was asked about, by its change, and where the click was.
-    open: Option<(u64, Pos2)>,
-    /// Counts questions.
-    number: u32,
-    answer: Option<Answer>,
-}
-
-impl Asked {
-    /// Takes what the host tells, unless something else was asked since.
-    pub fn take(&mut self, answer: Answer) {
-        if self.open.is_some_and(|(change, _)| change == answer.change) {
-            self.answer = Some(answer);
-        }
-    }
-
-    /// Forgets it all.
-    pub fn clear(&mut self) {
-        (self.open, self.answer) = (None, None);
-    }
-}
 
 impl Studio {
     /// What is told of the line that was clicked last, if there is one.
