@@ -5,13 +5,14 @@ mod order;
 mod painter;
 mod playbill;
 mod save;
+mod why;
 
 use crate::arguments::{Said, ViewArguments};
 use crate::fault::{Exit, Fault};
 use crate::message::quoted;
 use crate::style_source::StyleSource;
 use npr_stylesheet::{DEFAULT_PRESET, Stated};
-use npr_view::{Host, News, Order, Sheet, Studio, Take, shell_line};
+use npr_view::{Host, News, Order, Question, Sheet, Studio, Take, shell_line};
 use order::{pose_of, render_arguments};
 use painter::{Ask, Painter};
 use std::path::PathBuf;
@@ -136,6 +137,10 @@ impl Host for Desk {
 
     fn draw(&mut self, order: Order) {
         self.ask(Ask::Draw(order, self.opened));
+    }
+
+    fn point_at(&mut self, question: Question) {
+        self.ask(Ask::PointAt(question));
     }
 
     fn news(&mut self) -> Vec<News> {

@@ -79,8 +79,8 @@ pub use frame::Frame;
 pub use id_map::apply_id_maps;
 pub use layer_pixel::LayerPixel;
 pub use lines::{
-    HeldLines, KindSet, LineModel, LineModelOptions, LineOptions, LineRenderer, LineSource,
-    PaintedLines,
+    Fact, HeldLines, KindSet, LineModel, LineModelOptions, LineOptions, LineReason, LineRenderer,
+    LineSource, PaintedLines, Pointed, PointedPart, Removal, Spot,
 };
 pub use model::Model;
 pub use movement::Movement;

@@ -22,6 +22,7 @@ mod texture_map;
 mod tones;
 mod view;
 mod welded;
+mod why;
 mod widths;
 
 pub(crate) use expression::Expression;
@@ -32,3 +33,4 @@ pub use npr_core::line_source::LineSource;
 pub use options::{LineModelOptions, LineOptions, PaintedLines};
 pub(crate) use renderer::Behind;
 pub use renderer::LineRenderer;
+pub use why::{Fact, LineReason, Pointed, PointedPart, Removal, Spot};

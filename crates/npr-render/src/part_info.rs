@@ -81,11 +81,16 @@ impl PartInfo {
 
     /// How a style draws it.
     pub(crate) fn look<'a>(&self, style: &'a Style) -> Look<'a> {
-        style.resolve(PartNames {
+        style.resolve(self.names())
+    }
+
+    /// The names that rules match.
+    pub(crate) fn names(&self) -> PartNames<'_> {
+        PartNames {
             material: &self.material_name,
             object: &self.object_name,
             ids: &self.ids,
-        })
+        }
     }
 
     /// Whether a style makes it a beam of light.

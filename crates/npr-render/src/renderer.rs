@@ -11,7 +11,7 @@ use crate::frame::Frame;
 use crate::frame_graph::pixel_count;
 use crate::frame_renderer::{Aimed, FramePlan, FrameRenderer};
 use crate::layer_pixel::LayerPixel;
-use crate::lines::LineRenderer;
+use crate::lines::{LineRenderer, Pointed, Spot};
 use crate::look::StyledModel;
 use crate::model::Model;
 use crate::motion_lines::find_motion_lines;
@@ -321,6 +321,20 @@ impl<'a> Renderer<'a> {
         match &mut self.blended {
             Some((other, _)) => other.pass(camera),
             None => Ok(()),
+        }
+    }
+
+    /// What the frame of a camera shows at a spot, with the reasons of the stroke there; nothing where lines are no
+    /// strokes ([`Self::has_strokes`]). It takes as long as strokes take to be found. Of a blend it is the first look.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Self::draw`] that have to do with lines.
+    pub fn point_at(&mut self, camera: &Camera, spot: Spot) -> Result<Pointed, RenderError> {
+        let FramePlan { style, options, .. } = &self.frames.plan;
+        match &mut self.lines {
+            Some(lines) => strokes::point_at(lines, camera, (style, options), spot),
+            None => Ok(Pointed::default()),
         }
     }
 

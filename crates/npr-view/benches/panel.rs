@@ -4,7 +4,7 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use npr_stylesheet::Stated;
-use npr_view::{Host, News, Order, Sheet, Studio, Take};
+use npr_view::{Host, News, Order, Question, Sheet, Studio, Take};
 use std::hint::black_box;
 use toml::Value;
 
@@ -19,6 +19,8 @@ impl Host for Idle {
     fn open(&mut self, _: &str) {}
 
     fn draw(&mut self, _: Order) {}
+
+    fn point_at(&mut self, _: Question) {}
 
     fn news(&mut self) -> Vec<News> {
         Vec::new()

@@ -6,6 +6,7 @@ use crate::pose::{Cast, Pose};
 use crate::sheet::Sheet;
 use crate::value::number_text;
 use crate::viewpoint::Viewpoint;
+use crate::why::Answer;
 
 /// A picture that is asked for.
 #[derive(Debug, Clone, PartialEq)]
@@ -55,6 +56,17 @@ impl Order {
     }
 }
 
+/// What is at a place of a picture?
+#[derive(Debug, Clone, PartialEq)]
+pub struct Question {
+    /// The picture.
+    pub order: Order,
+    /// The place in its pixels, from the top left corner, y down.
+    pub place: [f32; 2],
+    /// How far from there a line may be that is meant, in pixels.
+    pub reach_px: f32,
+}
+
 /// A picture that was drawn.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Picture {
@@ -86,6 +98,8 @@ pub enum News {
     Scene(String, Box<Cast>),
     /// The style file has changed where it lies.
     StyleChanged,
+    /// What is at a place of a picture.
+    Pointed(Box<Answer>),
 }
 
 /// What is taken away from a studio.
@@ -113,6 +127,9 @@ pub trait Host {
 
     /// Draws a picture. One that is asked for later may be drawn in place of it.
     fn draw(&mut self, order: Order);
+
+    /// Finds out what is at a place of a picture; [`News::Pointed`] tells it.
+    fn point_at(&mut self, question: Question);
 
     /// What happened since the last call.
     fn news(&mut self) -> Vec<News>;

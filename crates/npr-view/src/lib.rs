@@ -26,11 +26,13 @@ mod sheet;
 mod studio;
 mod value;
 mod viewpoint;
+mod why;
 #[cfg(feature = "window")]
 pub mod window;
 
-pub use host::{Host, News, Order, Picture, Take, shell_line};
+pub use host::{Host, News, Order, Picture, Question, Take, shell_line};
 pub use pose::{Cast, Clip, LookAt, Pose};
 pub use sheet::Sheet;
 pub use studio::Studio;
 pub use viewpoint::Viewpoint;
+pub use why::{Answer, Remedy, ToldFact, ToldLine, ToldPart};

@@ -2,6 +2,7 @@
 
 mod canvas;
 mod timeline;
+mod why;
 
 use egui::{Key, KeyboardShortcut, Modifiers, RichText, TextureHandle, Ui};
 use npr_core::standard_view::StandardView;
@@ -14,6 +15,7 @@ use crate::panel::{Edit, Panel};
 use crate::pose::Pose;
 use crate::sheet::Sheet;
 use crate::viewpoint::Viewpoint;
+use crate::why::Asked;
 use timeline::Timeline;
 
 /// Seconds without a change after which the picture is drawn in full.
@@ -48,6 +50,8 @@ pub struct Studio {
     shown: Option<(Picture, TextureHandle)>,
     /// What is told, and whether it is a fault.
     told: Option<(String, bool)>,
+    /// What was asked about the picture.
+    asked: Asked,
 }
 
 impl Studio {
@@ -74,6 +78,7 @@ impl Studio {
             size: size.unwrap_or([1, 1]),
             shown: None,
             told: None,
+            asked: Asked::default(),
         }
     }
 
@@ -174,6 +179,7 @@ impl Studio {
                     self.scene = name;
                     self.take_cast(*cast, ui);
                 }
+                News::Pointed(answer) => self.asked.take(*answer),
                 News::StyleChanged => {
                     let name = self.sheet.name().to_owned();
                     self.take_style(&name, ui);

@@ -10,3 +10,4 @@ mod files_and_frames;
 mod manners_of_parts;
 mod outlines;
 mod sampled_sights;
+mod why;

@@ -4,6 +4,7 @@ use super::actor::{Actor, Handed};
 use super::order::order_arguments;
 use super::playbill;
 use super::save;
+use super::why;
 use crate::arguments::{Backend, RenderArguments, ViewArguments};
 use crate::device_choice::DeviceChoice;
 use crate::fault::{Exit, Fault};
@@ -20,9 +21,9 @@ use crate::viewpoint::{self, Seen, Viewed};
 use npr_core::camera::{Camera, Projection};
 use npr_gpu::engine::Engine;
 use npr_gpu::processor::Processor;
-use npr_render::{Renderer, RendererOptions};
+use npr_render::{Renderer, RendererOptions, Spot};
 use npr_stylesheet::Style;
-use npr_view::{News, Order, Picture, Take, Viewpoint};
+use npr_view::{News, Order, Picture, Question, Take, Viewpoint};
 use std::cell::{Cell, RefCell};
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
@@ -42,6 +43,8 @@ pub enum Ask {
     Draw(Order, u64),
     /// Open a scene, or a motion for the figure of the present one.
     Open(PathBuf),
+    /// Tell what is at a place of a picture.
+    PointAt(Question),
     /// Write the picture of an order, or its lines, into a file.
     Save(Take, Order),
     /// Nobody asks any more.
@@ -121,6 +124,8 @@ impl Painter {
                     self.open(&path, &mut loaded);
                     self.next()
                 }
+                // Only who draws a picture knows what is on it.
+                Ask::PointAt(_) => self.next(),
                 Ask::Save(take, order) => {
                     self.save(take, &order);
                     self.next()
@@ -255,9 +260,8 @@ impl Painter {
         let mut kept = VecDeque::new();
         let mut order = first.clone();
         loop {
-            let scene = (&prepared, &mut actor);
-            self.draw_one((engine, scene), &path, &order, &mut kept)?;
-            let next = self.next();
+            self.draw_one((engine, (&prepared, &mut actor)), &path, &order, &mut kept)?;
+            let next = self.answer((engine, (&prepared, &mut actor)), &path, &mut kept);
             let Ask::Draw(asked, _) = &next else {
                 return Ok(next);
             };
@@ -269,6 +273,45 @@ impl Painter {
             }
             order = asked.clone();
         }
+    }
+
+    /// Tells what is on the pictures that were drawn until something else is asked for, and gives that.
+    fn answer<'a>(
+        &self,
+        (engine, (prepared, actor)): (&'a dyn Engine, (&'a Prepared, &mut Actor)),
+        path: &Path,
+        kept: &mut VecDeque<Kept<'a>>,
+    ) -> Ask {
+        loop {
+            let question = match self.next() {
+                Ask::PointAt(question) => question,
+                other => return other,
+            };
+            let scene = (prepared, &mut *actor);
+            let told = self.point_at((engine, scene), path, &question, kept);
+            if let Err(fault) = told {
+                self.tell(News::Fault(fault.message));
+            }
+        }
+    }
+
+    fn point_at<'a>(
+        &self,
+        scene: (&'a dyn Engine, (&'a Prepared, &mut Actor)),
+        path: &Path,
+        question: &Question,
+        kept: &mut VecDeque<Kept<'a>>,
+    ) -> Result<(), Fault> {
+        let (mut found, camera, _) = self.poised(scene, path, &question.order, kept)?;
+        let spot = Spot {
+            place: question.place.map(f64::from),
+            reach_px: f64::from(question.reach_px),
+        };
+        let pointed = found.renderer.point_at(&camera, spot)?;
+        let answer = why::answer(question, &found.style, pointed);
+        keep(kept, found);
+        self.tell(News::Pointed(Box::new(answer)));
+        Ok(())
     }
 
     fn job<'a>(&self, args: &'a RenderArguments) -> Result<Job<'a>, Fault> {
@@ -289,17 +332,13 @@ impl Painter {
             && asked.curve_sources().eq(style.curve_sources())
     }
 
-    /// Draws one picture, with a renderer that is kept for the next.
-    fn draw_one<'a>(
+    /// The renderer of an order's style and size: one that is kept, which is taken out, or a new one.
+    fn renderer<'a>(
         &self,
-        (engine, (prepared, actor)): (&'a dyn Engine, (&'a Prepared, &mut Actor)),
-        path: &Path,
-        order: &Order,
+        (engine, prepared): (&'a dyn Engine, &'a Prepared),
+        (args, order): (&RenderArguments, &Order),
         kept: &mut VecDeque<Kept<'a>>,
-    ) -> Result<(), Fault> {
-        // Find the renderer of style and size, or make it.
-        let start = Instant::now();
-        let args = order_arguments(&self.args, path, order);
+    ) -> Result<Kept<'a>, Fault> {
         let draws = |other: &Kept<'_>| {
             let other = &other.order;
             other.size == order.size
@@ -307,24 +346,35 @@ impl Painter {
                 && other.overrides == order.overrides
         };
         let found = kept.iter().position(draws);
-        let found = found.and_then(|place| kept.remove(place));
-        let mut found = match found {
-            Some(found) => found,
-            None => {
-                let job = self.job(&args)?;
-                let style = job.look.style;
-                let options = RendererOptions {
-                    smoke: prepared.smoke.clone(),
-                    ..job.options
-                };
-                Kept {
-                    order: order.clone(),
-                    renderer: prepared.renderer(engine, (&style, &options))?,
-                    style,
-                    handed: Handed::default(),
-                }
-            }
+        if let Some(found) = found.and_then(|place| kept.remove(place)) {
+            return Ok(found);
+        }
+        let job = self.job(args)?;
+        let style = job.look.style;
+        let options = RendererOptions {
+            smoke: prepared.smoke.clone(),
+            ..job.options
         };
+        Ok(Kept {
+            order: order.clone(),
+            renderer: prepared.renderer(engine, (&style, &options))?,
+            style,
+            handed: Handed::default(),
+        })
+    }
+
+    /// The renderer of an order, taken out of those that are kept and with the order's pose, and the camera to draw
+    /// with.
+    fn poised<'a>(
+        &self,
+        (engine, (prepared, actor)): (&'a dyn Engine, (&'a Prepared, &mut Actor)),
+        path: &Path,
+        order: &Order,
+        kept: &mut VecDeque<Kept<'a>>,
+    ) -> Result<(Kept<'a>, Camera, Viewpoint), Fault> {
+        // Find the renderer, or make it.
+        let args = order_arguments(&self.args, path, order);
+        let mut found = self.renderer((engine, prepared), (&args, order), kept)?;
 
         // Place the camera, and pose the scene for it.
         let (pose, style) = (&args.drawing.pose, &found.style);
@@ -343,11 +393,22 @@ impl Painter {
         actor.face(&camera, style)?;
         let seconds = pose.time.unwrap_or(0.0);
         actor.hand_to(&mut found.renderer, &mut found.handed, seconds)?;
+        Ok((found, camera, viewpoint))
+    }
 
-        // Draw.
+    /// Draws one picture, with a renderer that is kept for the next.
+    fn draw_one<'a>(
+        &self,
+        (engine, (prepared, actor)): (&'a dyn Engine, (&'a Prepared, &mut Actor)),
+        path: &Path,
+        order: &Order,
+        kept: &mut VecDeque<Kept<'a>>,
+    ) -> Result<(), Fault> {
+        let start = Instant::now();
+        let scene = (engine, (prepared, &mut *actor));
+        let (mut found, camera, viewpoint) = self.poised(scene, path, order, kept)?;
         let mut frame = found.renderer.draw(&camera)?;
-        kept.push_front(found);
-        kept.truncate(KEPT);
+        keep(kept, found);
         frame.notices.extend_from_slice(actor.warnings());
         self.tell(News::Picture(Box::new(Picture {
             rgba: frame.rgba,
@@ -388,6 +449,12 @@ impl Painter {
             }
         }
     }
+}
+
+/// Keeps a renderer before all others, and lets go of what is more than [`KEPT`].
+fn keep<'a>(kept: &mut VecDeque<Kept<'a>>, found: Kept<'a>) {
+    kept.push_front(found);
+    kept.truncate(KEPT);
 }
 
 /// Adds what is asked for; a picture takes the place of one that waits at the end.

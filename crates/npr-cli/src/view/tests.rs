@@ -5,7 +5,7 @@ use crate::arguments::{Arguments, Command};
 use crate::encoder;
 use crate::render;
 use clap::Parser;
-use npr_view::{Picture, Pose, Viewpoint};
+use npr_view::{Picture, Pose, Remedy, Viewpoint};
 use std::path::Path;
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
@@ -300,4 +300,52 @@ fn the_view_turns_about_the_middle_of_the_scene() {
         .filter(|(a, b)| a != b)
         .count();
     assert!(differing < framed.rgba.len() / 100, "{differing}");
+}
+
+#[test]
+fn a_line_that_is_pointed_at_says_what_would_remove_it() {
+    // Point at the front upper edge of the box, in the middle of the picture as seen from the front.
+    let mut shop = Shop::new("--backend cpu --view front --ortho");
+    let order = order(&["line.least=0", "line.crease_least=0"], None);
+    let picture = shop.picture(&order);
+    let red = |y: &u32| picture.rgba[(y * picture.order.size[0] + 60) as usize * 4];
+    let top = (0..45).min_by_key(red).expect("rows");
+    assert!(red(&top) < 200, "no outline above the middle");
+    let question = |place: [f32; 2]| Question {
+        order: order.clone(),
+        place,
+        reach_px: 4.0,
+    };
+    let mut ask = |question| {
+        shop.desk.point_at(question);
+        shop.wait(|news| match news {
+            News::Pointed(answer) => Some(*answer),
+            News::Fault(text) => panic!("{text}"),
+            _ => None,
+        })
+    };
+    let line = ask(question([60.5, top as f32 + 0.5]))
+        .line
+        .expect("a line");
+    let rows = line
+        .points
+        .iter()
+        .map(|[_, y]| (y * 90.0 - top as f32 - 0.5).abs());
+    assert!(rows.fold(f32::INFINITY, f32::min) < 2.0, "{line:?}");
+    assert_eq!(line.part.object, "Box");
+    assert_eq!(line.removal, Remedy::Key("line.kinds.contour".to_owned()));
+    assert!(
+        line.facts
+            .iter()
+            .any(|fact| fact.key.as_deref() == Some("line.width.base"))
+    );
+
+    // In the middle there is the part alone, in the corner nothing.
+    let inside = ask(question([60.0, 45.0]));
+    assert!(inside.line.is_none() && inside.part.expect("a part").object == "Box");
+    let beside = ask(question([2.0, 2.0]));
+    assert_eq!(
+        (beside.line, beside.part, beside.notice),
+        (None, None, None)
+    );
 }

@@ -5,7 +5,7 @@ use crate::brushes::Brushes;
 use crate::error::RenderError;
 use crate::frame::Frame;
 use crate::frame_graph::{FrameGraph, write};
-use crate::lines::{LineOptions, LineRenderer};
+use crate::lines::{LineOptions, LineRenderer, Pointed, Spot};
 use crate::manners::StrokeManners;
 use crate::options::RendererOptions;
 use npr_core::budget::Budget;
@@ -120,10 +120,7 @@ pub(crate) fn find(
         report.notices.push(notice.to_owned());
         return Ok((found, report));
     };
-    let of_style = LineOptions {
-        dpi: options.stroke_dpi(),
-        ..LineOptions::of_style(style, options.stroke_size())
-    };
+    let of_style = line_options(style, options);
     for method in style.curve_sources() {
         let of_method = (&LineOptions { method, ..of_style }, leaves_open);
         let drawing = lines.draw_curves(camera, style, of_method, &options.pictures)?;
@@ -136,6 +133,52 @@ pub(crate) fn find(
         }
     }
     Ok((found, report))
+}
+
+fn line_options(style: &Style, options: &RendererOptions) -> LineOptions {
+    LineOptions {
+        dpi: options.stroke_dpi(),
+        ..LineOptions::of_style(style, options.stroke_size())
+    }
+}
+
+/// What strokes of a frame are at a spot, and what surface. What is seen of them is found exactly, whatever the style.
+pub(crate) fn point_at(
+    lines: &mut LineRenderer<'_>,
+    camera: &Camera,
+    (style, options): (&Style, &RendererOptions),
+    spot: Spot,
+) -> Result<Pointed, RenderError> {
+    // Ask every method, in the pixels of its strokes.
+    let by = f64::from(options.enlarged.max(1));
+    let spot = Spot {
+        place: spot.place.map(|at| at / by),
+        reach_px: spot.reach_px / by,
+    };
+    let of_style = line_options(style, options);
+    let mut pointed = Pointed::default();
+    for method in style.curve_sources() {
+        let of_method = LineOptions { method, ..of_style };
+        let found = lines.point_at_curves(camera, style, &of_method, &options.pictures, spot)?;
+        pointed.part = pointed.part.or(found.part);
+        let best = pointed.line.as_ref().map(|line| line.away_px);
+        if found
+            .line
+            .as_ref()
+            .is_some_and(|line| best.is_none_or(|best| line.away_px < best))
+        {
+            pointed.line = found.line;
+        }
+    }
+
+    // Tell it in pixels of the frame.
+    if let Some(line) = &mut pointed.line {
+        let points = line.points.iter_mut();
+        points.for_each(|point| *point = point.map(|at| at * by));
+        line.width_px *= by;
+        line.away_px *= by;
+    }
+    Ok(pointed)
 }
 
 /// The points of the strokes that a camera sees, in their order, with brushes that lie on them by the base width.

@@ -3,6 +3,7 @@
 use super::film::DrawnBefore;
 use super::model::check_count;
 use super::options::LineOptions;
+use super::why::{Watch, WidthStep};
 use crate::error::RenderError;
 use crate::manners::{StrokeManner, StrokeManners};
 use npr_drawing::dash::{Dash, cut_to_dashes, points_of_dashes};
@@ -221,7 +222,8 @@ impl Expression {
     }
 
     /// Draws the visible strokes so for which `manner_of` gives the number of a manner, in a picture of `size` pixels.
-    /// After a frame `before` what was drawn there is a stub when it is shorter.
+    /// After a frame `before` what was drawn there is a stub when it is shorter. `watch` sees them after every step
+    /// that changes widths.
     ///
     /// Stubs and specks go before ends move, as what is short is about lines and not about pens. Tapers follow the
     /// ends; copies have the tapers of their line; and each copy is dashed for itself.
@@ -234,7 +236,7 @@ impl Expression {
         strokes: &mut Vec<Stroke>,
         size: [u32; 2],
         manner_of: impl Fn(&Stroke) -> Option<u32> + Sync,
-        before: Option<&mut DrawnBefore>,
+        (before, watch): (Option<&mut DrawnBefore>, Watch<'_>),
     ) -> Result<(), RenderError> {
         // Leave out stubs, and cut what is too long.
         let of = |stroke: &Stroke| manner_of(stroke).and_then(|i| self.manners.get(i as usize));
@@ -273,9 +275,12 @@ impl Expression {
             move_ends(strokes, size, |stroke| Some(&of(stroke)?.overshoot));
         }
         press_strokes(strokes, |stroke| Some(&of(stroke)?.pressure));
+        watch(WidthStep::Pressure, strokes);
         leave_room(strokes, self.room, is_drawn);
+        watch(WidthStep::Room, strokes);
         let tapers = |stroke: &Stroke| tapers.get(manner_of(stroke)? as usize);
         taper_strokes(strokes, size, tapers, is_lifted);
+        watch(WidthStep::Taper, strokes);
 
         // Let them sway, and cut them.
         let hand_of = |stroke: &Stroke| Some(&of(stroke)?.hand);

@@ -11,8 +11,9 @@ use super::prepared::PreparedOnDemand;
 use super::smoke::SmokeView;
 use super::stroke_contrast::StrokeContrast;
 use super::texture_map::TextureMap;
-use super::view::LineView;
+use super::view::{LineView, notices_of_view};
 use super::welded::{Built, Posables, build, check_budget, colors_of, mark_materials, notices_of};
+use super::why::{Watch, WidthStep, nobody};
 use super::widths::{ShapeBends, WidthInput, Widths};
 use super::{colors, image, paint, pixels, smoke, widths};
 use crate::brushes::Brushes;
@@ -119,6 +120,8 @@ struct Wanted<'a> {
     movement: Option<&'a Movement>,
     /// Whether it is left open what is seen of lines, and with that where they thin out.
     is_open: bool,
+    /// Sees strokes after every step that changes their widths.
+    watch: Watch<'a>,
 }
 
 impl LineModel {
@@ -272,7 +275,8 @@ impl LineModel {
         // Within the threads that share the work, so that each step does not wait for one of them to wake.
         rayon::scope(|_| {
             let find = &mut OnProcessor;
-            self.draw_with((camera, None), style, options, find, (held, None))
+            let seen = (camera, None);
+            self.draw_with(seen, style, options, find, (held, None), &nobody)
         })
     }
 
@@ -328,6 +332,7 @@ impl LineModel {
         options: &LineOptions,
         find: &mut dyn Finder,
         (held, movement): (Option<&mut HeldLines>, Option<&Movement>),
+        watch: Watch<'_>,
     ) -> Result<Drawing, RenderError> {
         let wanted = Wanted {
             camera,
@@ -338,6 +343,7 @@ impl LineModel {
             behind,
             movement,
             is_open: false,
+            watch,
         };
         self.draw_some(&wanted, (find, held), |_| true)
     }
@@ -352,6 +358,7 @@ impl LineModel {
         (options, is_open): (&LineOptions, bool),
         pictures: &BTreeMap<String, Picture>,
         (find, (held, movement)): (&mut dyn Finder, (Option<&mut HeldLines>, Option<&Movement>)),
+        watch: Watch<'_>,
     ) -> Result<Drawing, RenderError> {
         let is_curve = |look: &Look<'_>| look.line_method.source() == Some(options.method);
         let folds_alone = LineOptions {
@@ -367,6 +374,7 @@ impl LineModel {
             behind: None,
             movement,
             is_open,
+            watch,
         };
         self.draw_some(&wanted, (find, held), is_curve)
     }
@@ -387,6 +395,7 @@ impl LineModel {
             behind,
             movement,
             is_open,
+            watch,
         } = *wanted;
         check_size(options.size)?;
         let is_empty = self.points.is_empty();
@@ -455,7 +464,9 @@ impl LineModel {
             mut strokes,
             left_out,
         } = self.strokes(&prepared, &view, (style, options), &paint, (find, joints))?;
+        watch(WidthStep::Source, &strokes);
         paint.apply(&mut strokes);
+        watch(WidthStep::Part, &strokes);
         if let Some(held) = &mut held {
             held.strokes.hold(&mut strokes, &self.shape, &projector);
         }
@@ -496,7 +507,7 @@ impl LineModel {
             false => expression,
         };
         let drawn = held.map(|held| &mut held.drawn);
-        expression.draw(&mut strokes, options.size, manner_of, drawn)?;
+        expression.draw(&mut strokes, options.size, manner_of, (drawn, watch))?;
         check_points(&strokes)?;
         let mut surfaces = paint.into_surfaces(&self.parts);
         let object_number = surfaces.iter().map(|s| s.object_number + 1).max();
@@ -758,21 +769,6 @@ impl LineModel {
         let swept = npr_core::camera::swept(points.iter().copied(), pivot, axis);
         Camera::framing_points(swept.into_iter(), aspect, fov_y)
     }
-}
-
-/// Notices of lines that a drawing leaves out because nobody could read them, a sentence each.
-fn notices_of_view(prepared: Option<&Prepared>, left_out: usize) -> Vec<String> {
-    let mut notices = Vec::new();
-    if prepared.is_some_and(|prepared| prepared.crossings.overflow) {
-        let text = "so many faces cut each other that lines of intersection are left out";
-        notices.push(text.to_owned());
-    }
-    if left_out > 0 {
-        notices.push(format!(
-            "lines lie closer than ink can show: {left_out} pieces of them are left out"
-        ));
-    }
-    notices
 }
 
 fn check_points(strokes: &[Stroke]) -> Result<(), RenderError> {

@@ -4,6 +4,7 @@ use super::film::HeldLines;
 use super::finder::{Finder, OnDevice, OnProcessor};
 use super::model::LineModel;
 use super::options::LineOptions;
+use super::why::{Pointed, Probe, Spot, nobody};
 use crate::error::RenderError;
 use crate::frame::Frame;
 use crate::model::Model;
@@ -147,24 +148,85 @@ impl<'a> LineRenderer<'a> {
         style: &Style,
         options: &LineOptions,
     ) -> Result<Drawing, RenderError> {
-        let behind = match &self.behind {
-            Some(Behind { model, draw }) if style.contrasts_with_background() => {
-                Some(draw(model, camera, style, options)?)
-            }
-            _ => None,
-        };
+        let behind = self.picture_behind(camera, style, options)?;
         self.finder.start_view();
         let model = self.posed.as_deref().unwrap_or(self.given);
         let find = self.finder.as_mut();
         let seen = (camera, behind.as_ref());
         let before = (self.held.as_mut(), self.movement.as_deref());
-        let mut drawing = model.draw_with(seen, style, options, find, before)?;
+        let mut drawing = model.draw_with(seen, style, options, find, before, &nobody)?;
         if let Some(movement) = &self.movement {
             let of_page = (options.size, options.dpi);
             let lines = motion_lines::find_motion_lines(movement, (camera, style), of_page);
             motion_lines::lay_over(&mut drawing, lines);
         }
         Ok(drawing)
+    }
+
+    fn picture_behind(
+        &self,
+        camera: &Camera,
+        style: &Style,
+        options: &LineOptions,
+    ) -> Result<Option<Frame>, RenderError> {
+        match &self.behind {
+            Some(Behind { model, draw }) if style.contrasts_with_background() => {
+                draw(model, camera, style, options).map(Some)
+            }
+            _ => Ok(None),
+        }
+    }
+
+    /// What a drawing shows at a spot, with the reasons of the line there. Lines are found as [`Self::draw`] finds them
+    /// and takes about as long, and are watched on the way; of a film it is a frame that holds to no other.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Self::draw`].
+    pub fn point_at(
+        &mut self,
+        camera: &Camera,
+        style: &Style,
+        options: &LineOptions,
+        spot: Spot,
+    ) -> Result<Pointed, RenderError> {
+        let behind = self.picture_behind(camera, style, options)?;
+        self.finder.start_view();
+        let model = self.posed.as_deref().unwrap_or(self.given);
+        let probe = Probe::new(spot);
+        let drawing = model.draw_with(
+            (camera, behind.as_ref()),
+            style,
+            options,
+            self.finder.as_mut(),
+            (None, self.movement.as_deref()),
+            &|step, strokes| probe.see(step, strokes),
+        )?;
+        model.pointed((camera, style, options), &drawing, &probe)
+    }
+
+    /// As [`Self::point_at`], of the lines of [`Self::draw_curves`].
+    pub(crate) fn point_at_curves(
+        &mut self,
+        camera: &Camera,
+        style: &Style,
+        options: &LineOptions,
+        pictures: &BTreeMap<String, Picture>,
+        spot: Spot,
+    ) -> Result<Pointed, RenderError> {
+        self.finder.start_view();
+        let model = self.posed.as_deref().unwrap_or(self.given);
+        let probe = Probe::new(spot);
+        let find: &mut dyn Finder = self.finder.as_mut();
+        let drawing = model.draw_curves(
+            camera,
+            style,
+            (options, false),
+            pictures,
+            (find, (None, self.movement.as_deref())),
+            &|step, strokes| probe.see(step, strokes),
+        )?;
+        model.pointed((camera, style, options), &drawing, &probe)
     }
 
     /// The lines of the parts whose style asks for curves that are found as `options` says; smoke hides none of them.
@@ -180,7 +242,8 @@ impl<'a> LineRenderer<'a> {
         let model = self.posed.as_deref().unwrap_or(self.given);
         let find: &mut dyn Finder = self.finder.as_mut();
         let before = (self.held.as_mut(), self.movement.as_deref());
-        model.draw_curves(camera, style, (options, is_open), pictures, (find, before))
+        let of_method = (options, is_open);
+        model.draw_curves(camera, style, of_method, pictures, (find, before), &nobody)
     }
 
     /// How long each pass of the last view took; none on the processor.

@@ -60,3 +60,18 @@ impl LineView<'_> {
         Ok(found?)
     }
 }
+
+/// Notices of lines that a drawing leaves out because nobody could read them, a sentence each.
+pub(super) fn notices_of_view(prepared: Option<&Prepared>, left_out: usize) -> Vec<String> {
+    let mut notices = Vec::new();
+    if prepared.is_some_and(|prepared| prepared.crossings.overflow) {
+        let text = "so many faces cut each other that lines of intersection are left out";
+        notices.push(text.to_owned());
+    }
+    if left_out > 0 {
+        notices.push(format!(
+            "lines lie closer than ink can show: {left_out} pieces of them are left out"
+        ));
+    }
+    notices
+}

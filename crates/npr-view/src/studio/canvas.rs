@@ -64,6 +64,15 @@ impl Studio {
                 .image(texture.id(), place, whole, egui::Color32::WHITE);
         }
 
+        // Say why a line is there that is clicked.
+        if let Some(pointer) = response
+            .interact_pointer_pos()
+            .filter(|_| response.clicked())
+        {
+            self.point_at(pointer, place);
+        }
+        self.show_why(ui, room, place);
+
         // Follow the mouse.
         let height = place.height().max(1.0);
         let drag = response.drag_delta();
