@@ -1,6 +1,10 @@
 //! The panel: a control for every key of a style, made from its schema.
 
 mod controls;
+mod curve;
+mod naming;
+mod ramp;
+mod stops;
 
 use egui::collapsing_header::CollapsingState;
 use egui::{Id, RichText, Ui};
@@ -8,8 +12,8 @@ use npr_stylesheet::{Field, Form, fields};
 use toml::Value;
 
 use crate::sheet::Sheet;
-pub(crate) use controls::name_it;
 use controls::{UNFOLDED, control};
+pub(crate) use naming::name_it;
 
 /// Width of the names of keys, in points.
 const NAME_WIDTH: f32 = 118.0;

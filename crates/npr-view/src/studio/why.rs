@@ -60,7 +60,11 @@ impl Studio {
             return;
         }
 
-        // Show the card beside the click.
+        // Show the card on the other side of the picture.
+        let left = match at.x < room.center().x {
+            true => (room.right() - CARD_WIDTH - 30.0).max(room.left()),
+            false => room.left() + 10.0,
+        };
         let mut is_open = !ui.input(|input| input.key_pressed(egui::Key::Escape));
         let mut edit = None;
         let title = match answer.line {
@@ -70,7 +74,7 @@ impl Studio {
         egui::Window::new(title)
             .id(egui::Id::unique(("why", self.asked.number)))
             .open(&mut is_open)
-            .default_pos(at + egui::vec2(14.0, 14.0))
+            .default_pos(egui::pos2(left, room.top() + 10.0))
             .constrain_to(room)
             .collapsible(false)
             .resizable(false)
@@ -93,20 +97,22 @@ impl Studio {
     fn show_answer(&mut self, ui: &mut Ui, answer: &Answer) -> Option<Edit> {
         let mut edit = None;
         if let Some(line) = &answer.line {
-            for (i, fact) in line.facts.iter().enumerate() {
-                if i > 0 && !fact.name.is_empty() {
-                    ui.separator();
-                }
-                if !fact.name.is_empty() {
-                    ui.label(RichText::new(&fact.name).strong());
-                }
-                ui.label(&fact.text);
-                if let Some(key) = &fact.key {
-                    let link = ui.link(RichText::new(key).small());
-                    if link.on_hover_text("show this key in the panel").clicked() {
-                        self.panel.search = searched(key).to_owned();
+            for fact in &line.facts {
+                ui.horizontal_wrapped(|ui| {
+                    ui.spacing_mut().item_spacing.x = 5.0;
+                    if fact.name.is_empty() {
+                        ui.add_space(14.0);
+                    } else {
+                        ui.label(RichText::new(&fact.name).strong());
                     }
-                }
+                    ui.label(&fact.text);
+                    if let Some(key) = &fact.key {
+                        let link = ui.link(RichText::new(key).small());
+                        if link.on_hover_text("show this key in the panel").clicked() {
+                            searched(key).clone_into(&mut self.panel.search);
+                        }
+                    }
+                });
             }
             ui.separator();
             if ui.button(line.removal.text()).clicked() {
