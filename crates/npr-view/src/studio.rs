@@ -10,7 +10,7 @@ use npr_stylesheet::{StyleError, presets};
 use crate::history::History;
 use crate::host::{Host, News, Order, Picture, Take};
 use crate::pace::Pace;
-use crate::panel::{Edit, Panel};
+use crate::panel::{Edit, Panel, stepped};
 use crate::sheet::Sheet;
 use crate::viewpoint::Viewpoint;
 use crate::why::Asked;
@@ -267,15 +267,14 @@ impl Studio {
 
     /// Takes keys that are meant for no text.
     fn take_keys(&mut self, ui: &Ui) {
-        // Undo and redo go over the whole window.
+        // Undo and redo go over the whole window, but for texts that are typed.
         let pressed = |modifiers, key| {
             ui.input_mut(|input| input.consume_shortcut(&KeyboardShortcut::new(modifiers, key)))
         };
-        let is_free = !ui.ctx().egui_wants_keyboard_input();
         if pressed(Modifiers::COMMAND, Key::S) {
             self.save(Take::Style);
         }
-        if !is_free {
+        if ui.ctx().text_edit_focused() {
             return;
         }
         if pressed(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z)
@@ -290,7 +289,10 @@ impl Studio {
             self.copy_command(ui);
         }
 
-        // Keys of the camera are those of Blender's numbers.
+        // Keys of the camera are those of Blender's numbers, unless a control has the keys.
+        if ui.ctx().egui_wants_keyboard_input() {
+            return;
+        }
         for (key, side) in [
             (Key::Num1, StandardView::Front),
             (Key::Num3, StandardView::Right),
@@ -405,6 +407,11 @@ impl Studio {
                     }
                 });
             crate::panel::name_it(&shown.response, "Style");
+            let place = presets()
+                .iter()
+                .position(|preset| preset.name == self.sheet.name());
+            let there = stepped(&shown.response, place.unwrap_or(0), presets().len());
+            chosen = chosen.or(there.map(|there| presets()[there].name));
         });
         if let Some(name) = chosen {
             self.take_style(name, ui);

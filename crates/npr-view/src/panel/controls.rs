@@ -4,7 +4,7 @@ use egui::{ComboBox, DragValue, Id, Response, RichText, Slider, TextEdit, Ui};
 use npr_stylesheet::{Background, Color, Field, Form, LONGEST, Length, Unit};
 use toml::{Table, Value};
 
-use super::naming::name_it;
+use super::naming::{name_it, stepped};
 use super::stops::StopForm;
 use super::{Edit, Place, curve, ramp, row};
 use crate::value::{as_number, at, text_of};
@@ -102,7 +102,9 @@ fn choice(ui: &mut Ui, words: &[(Value, &'static str)], key: &str, now: &Value) 
             }
         });
     name_it(&shown.response, key);
-    chosen
+    let place = words.iter().position(|(word, _)| word == now);
+    let there = stepped(&shown.response, place.unwrap_or(0), words.len());
+    chosen.or(there.map(|there| words[there].0.clone()))
 }
 
 /// A number as a value; fractions are of single precision.
@@ -208,6 +210,10 @@ fn length(ui: &mut Ui, key: &str, now: &Value) -> Option<Value> {
                 }
             });
         name_it(&shown.response, &format!("unit of {key}"));
+        let place = UNITS.iter().position(|(unit, _)| *unit == length.unit);
+        if let Some(there) = stepped(&shown.response, place.unwrap_or(0), UNITS.len()) {
+            length.unit = UNITS[there].0;
+        }
     });
     (length != before).then(|| match length.unit {
         Unit::RefPx => Value::Float(f64::from(length.value)),

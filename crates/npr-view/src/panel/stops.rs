@@ -1,10 +1,10 @@
 //! Stops of lists, taken by the hand: they are moved, added and removed.
 
-use egui::{EventFilter, Key, Rect, Response, Sense, Ui, Vec2, pos2, vec2};
+use egui::{Key, Rect, Response, Sense, Ui, Vec2, pos2, vec2};
 use npr_stylesheet::{Field, Form};
 use toml::Value;
 
-use super::naming::name_it;
+use super::naming::{arrows, name_it};
 use crate::value::as_number;
 
 /// Side of a handle, in points.
@@ -99,21 +99,8 @@ pub(super) fn handle(
         let apart = pointer - rect.center();
         vec2(apart.x, -apart.y) / whole
     });
-    if is_focused {
-        let arrows = EventFilter {
-            horizontal_arrows: true,
-            vertical_arrows: true,
-            ..EventFilter::default()
-        };
-        ui.memory_mut(|memory| memory.set_focus_lock_filter(id, arrows));
-        by += ui.input(|input| {
-            let presses = |key| input.num_presses(key) as f32 * STEP;
-            vec2(
-                presses(Key::ArrowRight) - presses(Key::ArrowLeft),
-                presses(Key::ArrowUp) - presses(Key::ArrowDown),
-            )
-        });
-    }
+    let [right, up] = arrows(&response);
+    by += vec2(right as f32, up as f32) * STEP;
     let done = (by != Vec2::ZERO).then_some(Done::Moved(by));
     (response, done)
 }

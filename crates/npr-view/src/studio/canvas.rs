@@ -46,7 +46,8 @@ impl Studio {
             self.size = size;
             self.changed(ui);
         }
-        let response = ui.allocate_rect(room, Sense::click_and_drag());
+        // Keys of the camera go to it where no control has them.
+        let response = ui.allocate_rect(room, Sense::CLICK | Sense::DRAG);
         if response.clicked() || response.drag_started() {
             response.request_focus();
             ui.memory_mut(|memory| memory.surrender_focus(response.id));
