@@ -1,6 +1,7 @@
 //! All that is seen: the picture, the panel and what is told below.
 
 mod canvas;
+mod guides;
 mod why;
 
 use egui::{Key, KeyboardShortcut, Modifiers, RichText, TextureHandle, Ui};
@@ -46,6 +47,8 @@ pub struct Studio {
     told: Option<(String, bool)>,
     /// What was asked about the picture.
     asked: Asked,
+    /// Whether clicks on the picture add guide points, and take them away.
+    places_guides: bool,
 }
 
 impl Studio {
@@ -71,6 +74,7 @@ impl Studio {
             shown: None,
             told: None,
             asked: Asked::default(),
+            places_guides: false,
         }
     }
 
@@ -157,7 +161,7 @@ impl Studio {
                     }
                     self.scene = name;
                 }
-                News::Pointed(answer) => self.asked.take(*answer),
+                News::Pointed(answer) => self.take_answer(*answer, ui),
                 News::StyleChanged => {
                     let name = self.sheet.name().to_owned();
                     self.take_style(&name, ui);
@@ -368,6 +372,10 @@ impl Studio {
             if response.on_hover_text("Ctrl+Y").clicked() {
                 self.redo(ui);
             }
+            let guides = ui.toggle_value(&mut self.places_guides, "Guide points");
+            guides.on_hover_text(
+                "a click on the model adds a point where lines taper; one on a dot takes it away",
+            );
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 for (text, is_open) in [("Fold all", false), ("Unfold all", true)] {
                     if ui.add(small(text)).clicked() {

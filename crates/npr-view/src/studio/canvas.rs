@@ -65,12 +65,15 @@ impl Studio {
                 .image(texture.id(), place, whole, egui::Color32::WHITE);
         }
 
-        // Say why a line is there that is clicked.
+        // Say why a line is there that is clicked, or place guide points.
         if let Some(pointer) = response
             .interact_pointer_pos()
             .filter(|_| response.clicked())
         {
-            self.point_at(pointer, place);
+            self.click(pointer, place, ui);
+        }
+        if self.places_guides {
+            self.show_guides(ui, place);
         }
         self.show_why(ui, room, place);
 

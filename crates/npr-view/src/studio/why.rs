@@ -20,8 +20,30 @@ impl Studio {
         self.asked.answer.as_ref()?.line.as_ref()
     }
 
+    /// Takes what the host tells, unless something else was asked since.
+    pub(super) fn take_answer(&mut self, answer: Answer, ui: &Ui) {
+        let asked = self.asked.open.map(|(change, _)| change);
+        if asked != Some(answer.change) {
+            return;
+        }
+        if self.asked.is_for_guide {
+            self.asked.clear();
+            return self.add_guide(answer.part.as_ref(), ui);
+        }
+        self.asked.answer = Some(answer);
+    }
+
+    /// Takes a click on the picture that covers `place`: it places guide points, or asks why a line is there.
+    pub(super) fn click(&mut self, pointer: Pos2, place: Rect, ui: &Ui) {
+        if self.places_guides && self.remove_guide(pointer, place, ui) {
+            return;
+        }
+        self.asked.is_for_guide = self.places_guides;
+        self.point_at(pointer, place);
+    }
+
     /// Asks what is at a place of the window, where the full picture covers `place`.
-    pub(super) fn point_at(&mut self, pointer: Pos2, place: Rect) {
+    fn point_at(&mut self, pointer: Pos2, place: Rect) {
         self.asked.clear();
         if !place.contains(pointer) {
             return;
