@@ -372,9 +372,10 @@ impl Studio {
             if response.on_hover_text("Ctrl+Y").clicked() {
                 self.redo(ui);
             }
-            let guides = ui.toggle_value(&mut self.places_guides, "Guide points");
+            let guides = ui.toggle_value(&mut self.places_guides, "Guides");
+            crate::panel::name_it(&guides, "Guide points");
             guides.on_hover_text(
-                "a click on the model adds a point where lines taper; one on a dot takes it away",
+                "a click on the model adds a guide point, where lines thin out; one on its dot takes it away",
             );
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 for (text, is_open) in [("Fold all", false), ("Unfold all", true)] {

@@ -76,7 +76,7 @@ impl Studio {
         let edge = Stroke::new(1.5, Color32::WHITE);
         for guide in self.guides() {
             if let Some(at) = self.guide_at(*guide, place) {
-                painter.circle(at, 4.5, Color32::from_rgb(0x20, 0x80, 0xe0), edge);
+                painter.circle(at, 4.5, Color32::from_rgb(0xff, 0x90, 0x00), edge);
             }
         }
     }

@@ -194,6 +194,6 @@ fn mark(ui: &Ui, line: &ToldLine, place: Rect) {
     painter.line(points.clone(), halo);
     painter.line(
         points,
-        Stroke::new(2.5, Color32::from_rgb(0xe0, 0x20, 0x60)),
+        Stroke::new(2.5, Color32::from_rgb(0x10, 0x80, 0xff)),
     );
 }
