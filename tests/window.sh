@@ -41,9 +41,10 @@ at 1100 69; xdotool click 1; sleep 0.3
 xdotool type 'line opacity'; sleep 1
 shot 3
 
-# Look from the top in parallel view, and from the front.
+# Look from the front in parallel view, and come nearer.
 at 400 400; xdotool click 1; sleep 0.3
-xdotool key 1; sleep 0.3; xdotool key 5; sleep 1.5
+xdotool key 1; sleep 0.3; xdotool key 5; sleep 1
+at 400 415; for _ in 1 2 3 4 5 6 7 8; do xdotool click 4; sleep 0.1; done; sleep 1.5
 shot 4
 
 # Unfold a group, and change a colour by its text.
@@ -57,8 +58,29 @@ at 400 400; xdotool click 1; sleep 0.2
 xdotool key ctrl+z; sleep 1; xdotool key ctrl+y; sleep 1; xdotool key ctrl+s; sleep 1
 shot 6
 cat view.log scene.toml
+
+# Click the outline where a row of the picture meets it first, and see why it is there.
+outline=$(convert 6.png -crop 900x1+20+250 +repage -colorspace gray txt:- |
+  awk -F'[,:() ]+' 'NR > 1 && $3 + 0 < 150 * ($3 > 255 ? 257 : 1) { print $1 + 21; exit }')
+at "${outline:-400}" 250; xdotool click 1; sleep 2
+shot 7
+
+# Drag a stop of a ramp.
+xdotool key Escape; sleep 0.3
+at 1100 69; xdotool click 1; xdotool key ctrl+a; xdotool type 'shade.ramp'; sleep 1
+at 1072 188; xdotool mousedown 1
+for _ in 1 2 3 4 5 6; do xdotool mousemove_relative 8 0; sleep 0.1; done
+xdotool mouseup 1; sleep 1.5
+shot 8
+
+# Place guide points on the model.
+at 1098 95; xdotool click 1; sleep 0.5
+for place in '420 300' '470 420' '520 330'; do
+  at ${place% *} ${place#* }; xdotool click 1; sleep 1.5
+done
+shot 9
 kill -0 $view
 
 # Lay them side by side.
-montage 1.png 2.png 3.png 4.png 5.png 6.png -tile 3x2 -geometry 640x400+2+2 -depth 8 +dither -colors 48 PNG8:sheet.png
+montage 1.png 2.png 3.png 4.png 5.png 6.png 7.png 8.png 9.png -tile 3x3 -geometry 640x400+2+2 -depth 8 +dither -colors 48 PNG8:sheet.png
 cp sheet.png "$out"

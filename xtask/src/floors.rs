@@ -82,7 +82,7 @@ const MEMBERS: [Member; 18] = [
         ],
     ),
     // Floor 3: the window, and the command, which may open it.
-    Member::heavy("npr-view", &["npr-core", "npr-stylesheet"]),
+    Member::heavy("npr-view", &["npr-core", "npr-drawing", "npr-stylesheet"]),
     Member::heavy(
         "npr-cli",
         &[

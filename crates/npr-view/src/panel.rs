@@ -1,6 +1,10 @@
 //! The panel: a control for every key of a style, made from its schema.
 
 mod controls;
+mod curve;
+mod naming;
+mod ramp;
+mod stops;
 
 use egui::collapsing_header::CollapsingState;
 use egui::{Id, RichText, Ui};
@@ -8,8 +12,8 @@ use npr_stylesheet::{Field, Form, fields};
 use toml::Value;
 
 use crate::sheet::Sheet;
-pub(crate) use controls::name_it;
 use controls::{UNFOLDED, control};
+pub(crate) use naming::{name_it, stepped};
 
 /// Width of the names of keys, in points.
 const NAME_WIDTH: f32 = 118.0;
@@ -206,7 +210,8 @@ fn group(
     }
     let mut is_clicked = false;
     let mut header = state.show_header(ui, |ui| {
-        let title = egui::Label::new(title).sense(egui::Sense::click());
+        // The arrow before it has the keys for both.
+        let title = egui::Label::new(title).sense(egui::Sense::CLICK);
         let mut response = ui.add(title);
         if !text.is_empty() {
             response = response.on_hover_text(text);
@@ -224,7 +229,8 @@ fn group(
     if is_clicked {
         header.toggle();
     }
-    header.body(|ui| add(ui));
+    let (fold, ..) = header.body(|ui| add(ui));
+    name_it(&fold, &format!("fold {key}"));
 }
 
 /// A key in a line: its name, its control, and a button that takes a change back.

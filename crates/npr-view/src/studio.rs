@@ -1,6 +1,7 @@
 //! All that is seen: the picture, the panel and what is told below.
 
 mod canvas;
+mod guides;
 mod timeline;
 mod why;
 
@@ -11,7 +12,7 @@ use npr_stylesheet::{StyleError, presets};
 use crate::history::History;
 use crate::host::{Host, News, Order, Picture, Take};
 use crate::pace::Pace;
-use crate::panel::{Edit, Panel};
+use crate::panel::{Edit, Panel, stepped};
 use crate::pose::Pose;
 use crate::sheet::Sheet;
 use crate::viewpoint::Viewpoint;
@@ -52,6 +53,8 @@ pub struct Studio {
     told: Option<(String, bool)>,
     /// What was asked about the picture.
     asked: Asked,
+    /// Whether clicks on the picture add guide points, and take them away.
+    places_guides: bool,
 }
 
 impl Studio {
@@ -79,6 +82,7 @@ impl Studio {
             shown: None,
             told: None,
             asked: Asked::default(),
+            places_guides: false,
         }
     }
 
@@ -179,7 +183,7 @@ impl Studio {
                     self.scene = name;
                     self.take_cast(*cast, ui);
                 }
-                News::Pointed(answer) => self.asked.take(*answer),
+                News::Pointed(answer) => self.take_answer(*answer, ui),
                 News::StyleChanged => {
                     let name = self.sheet.name().to_owned();
                     self.take_style(&name, ui);
@@ -289,15 +293,14 @@ impl Studio {
 
     /// Takes keys that are meant for no text.
     fn take_keys(&mut self, ui: &Ui) {
-        // Undo and redo go over the whole window.
+        // Undo and redo go over the whole window, but for texts that are typed.
         let pressed = |modifiers, key| {
             ui.input_mut(|input| input.consume_shortcut(&KeyboardShortcut::new(modifiers, key)))
         };
-        let is_free = !ui.ctx().egui_wants_keyboard_input();
         if pressed(Modifiers::COMMAND, Key::S) {
             self.save(Take::Style);
         }
-        if !is_free {
+        if ui.ctx().text_edit_focused() {
             return;
         }
         if pressed(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z)
@@ -312,9 +315,11 @@ impl Studio {
             self.copy_command(ui);
         }
 
+        // Keys of time and camera, which are those of Blender's numbers, unless a control has the keys.
+        if ui.ctx().egui_wants_keyboard_input() {
+            return;
+        }
         self.take_time_keys(ui);
-
-        // Keys of the camera are those of Blender's numbers.
         for (key, side) in [
             (Key::Num1, StandardView::Front),
             (Key::Num3, StandardView::Right),
@@ -390,6 +395,11 @@ impl Studio {
             if response.on_hover_text("Ctrl+Y").clicked() {
                 self.redo(ui);
             }
+            let guides = ui.toggle_value(&mut self.places_guides, "Guides");
+            crate::panel::name_it(&guides, "Guide points");
+            guides.on_hover_text(
+                "a click on the model adds a guide point, where lines thin out; one on its dot takes it away",
+            );
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 for (text, is_open) in [("Fold all", false), ("Unfold all", true)] {
                     if ui.add(small(text)).clicked() {
@@ -429,6 +439,11 @@ impl Studio {
                     }
                 });
             crate::panel::name_it(&shown.response, "Style");
+            let place = presets()
+                .iter()
+                .position(|preset| preset.name == self.sheet.name());
+            let there = stepped(&shown.response, place.unwrap_or(0), presets().len());
+            chosen = chosen.or(there.map(|there| presets()[there].name));
         });
         if let Some(name) = chosen {
             self.take_style(name, ui);

@@ -51,6 +51,12 @@ fn inline(value: &Value) -> String {
     }
 }
 
+/// A number; 0 where the value is none.
+pub(crate) fn as_number(value: &Value) -> f64 {
+    let whole = value.as_integer().map(|number| number as f64);
+    value.as_float().or(whole).unwrap_or_default()
+}
+
 /// A number of a style: those are of single precision.
 pub(crate) fn number_text(number: f64) -> String {
     format!("{}", number as f32)

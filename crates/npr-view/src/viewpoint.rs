@@ -118,6 +118,20 @@ impl Viewpoint {
         self.up = up;
     }
 
+    /// Where a point of the world lies in a picture of `size` pixels, in shares of its width and height from the upper
+    /// left corner; `None` behind the eye.
+    pub(crate) fn share_of(&self, [x, y, z]: [f32; 3], size: [u32; 2]) -> Option<[f32; 2]> {
+        let around = self.distance();
+        let bounds = [-1.0, 1.0].map(|side| self.target.map(|middle| middle + side * around));
+        let m = self
+            .camera()
+            .view(size, (bounds[0], bounds[1]))
+            .clip_from_world;
+        let [right, up, w] =
+            [0, 1, 3].map(|row| m[0][row] * x + m[1][row] * y + m[2][row] * z + m[3][row]);
+        (w > 0.0).then(|| [0.5 + 0.5 * right / w, 0.5 - 0.5 * up / w])
+    }
+
     fn distance(&self) -> f32 {
         let apart: [f32; 3] = std::array::from_fn(|i| self.eye[i] - self.target[i]);
         dot(apart, apart).sqrt()
@@ -192,6 +206,23 @@ mod tests {
             })
             .collect();
         [clip[0] / clip[3] * 0.5, -clip[1] / clip[3] * 0.5]
+    }
+
+    #[test]
+    fn a_point_of_the_world_lies_where_the_picture_shows_it() {
+        for is_parallel in [false, true] {
+            let point = Viewpoint {
+                is_parallel,
+                ..front()
+            };
+            let world = [0.7, -0.4, 0.3];
+            let [x, y] = seen(&point, world);
+            let share = point.share_of(world, [100, 100]).expect("before the eye");
+            assert!((share[0] - 0.5 - x).abs() < 1e-5 && (share[1] - 0.5 - y).abs() < 1e-5);
+            let wide = point.share_of(world, [200, 100]).expect("before the eye");
+            assert!((wide[0] - 0.5 - 0.5 * x).abs() < 1e-5 && wide[1] == share[1]);
+        }
+        assert_eq!(front().share_of([0.0, 0.0, 6.0], [100, 100]), None);
     }
 
     #[test]

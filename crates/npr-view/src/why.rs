@@ -71,17 +71,12 @@ pub(crate) struct Asked {
     pub open: Option<(u64, Pos2)>,
     /// Counts questions.
     pub number: u32,
+    /// Whether it was asked for the place of a guide point.
+    pub is_for_guide: bool,
     pub answer: Option<Answer>,
 }
 
 impl Asked {
-    /// Takes what the host tells, unless something else was asked since.
-    pub fn take(&mut self, answer: Answer) {
-        if self.open.is_some_and(|(change, _)| change == answer.change) {
-            self.answer = Some(answer);
-        }
-    }
-
     /// Forgets it all.
     pub fn clear(&mut self) {
         (self.open, self.answer) = (None, None);

@@ -4,8 +4,10 @@ use egui::{ComboBox, DragValue, Id, Response, RichText, Slider, TextEdit, Ui};
 use npr_stylesheet::{Background, Color, Field, Form, LONGEST, Length, Unit};
 use toml::{Table, Value};
 
-use super::{Edit, Place, row};
-use crate::value::{at, text_of};
+use super::naming::{name_it, stepped};
+use super::stops::StopForm;
+use super::{Edit, Place, curve, ramp, row};
+use crate::value::{as_number, at, text_of};
 
 /// Width of sliders and of other controls, in points.
 const WIDTH: f32 = 120.0;
@@ -24,13 +26,6 @@ const UNITS: [(Unit, &str); 5] = [
     (Unit::World, "world"),
     (Unit::FrameHeight, "% height"),
 ];
-
-/// Gives a control the name that programs which read screens know it by.
-pub(crate) fn name_it(response: &Response, name: &str) {
-    response
-        .ctx
-        .accesskit_node_builder(response.id, |node| node.set_label(name));
-}
 
 /// Shows the control of a key, and gives what the user changed.
 pub(super) fn control(ui: &mut Ui, field: &Field, key: &str, now: Option<&Value>) -> Option<Edit> {
@@ -107,12 +102,9 @@ fn choice(ui: &mut Ui, words: &[(Value, &'static str)], key: &str, now: &Value) 
             }
         });
     name_it(&shown.response, key);
-    chosen
-}
-
-fn as_number(value: &Value) -> f64 {
-    let whole = value.as_integer().map(|number| number as f64);
-    value.as_float().or(whole).unwrap_or_default()
+    let place = words.iter().position(|(word, _)| word == now);
+    let there = stepped(&shown.response, place.unwrap_or(0), words.len());
+    chosen.or(there.map(|there| words[there].0.clone()))
 }
 
 /// A number as a value; fractions are of single precision.
@@ -218,6 +210,10 @@ fn length(ui: &mut Ui, key: &str, now: &Value) -> Option<Value> {
                 }
             });
         name_it(&shown.response, &format!("unit of {key}"));
+        let place = UNITS.iter().position(|(unit, _)| *unit == length.unit);
+        if let Some(there) = stepped(&shown.response, place.unwrap_or(0), UNITS.len()) {
+            length.unit = UNITS[there].0;
+        }
     });
     (length != before).then(|| match length.unit {
         Unit::RefPx => Value::Float(f64::from(length.value)),
@@ -320,7 +316,17 @@ fn list(
     now: &Value,
 ) -> Option<Value> {
     let entries = now.as_array()?;
+    // Stops are taken by the hand, and their numbers stand below.
     let mut changed: Option<Vec<Value>> = None;
+    if let Form::Table(fields) = entry
+        && let Some(form) = StopForm::of(fields)
+    {
+        let count = (fewest, most);
+        changed = match form {
+            StopForm::Factor => curve::edit(ui, fields, count, key, entries),
+            _ => ramp::edit(ui, (form, fields), count, key, entries),
+        };
+    }
     let count = entries.len() as u64;
     for (i, value) in entries.iter().enumerate() {
         ui.push_id(i, |ui| {

@@ -46,7 +46,8 @@ impl Studio {
             self.size = size;
             self.changed(ui);
         }
-        let response = ui.allocate_rect(room, Sense::click_and_drag());
+        // Keys of the camera go to it where no control has them.
+        let response = ui.allocate_rect(room, Sense::CLICK | Sense::DRAG);
         if response.clicked() || response.drag_started() {
             response.request_focus();
             ui.memory_mut(|memory| memory.surrender_focus(response.id));
@@ -64,12 +65,15 @@ impl Studio {
                 .image(texture.id(), place, whole, egui::Color32::WHITE);
         }
 
-        // Say why a line is there that is clicked.
+        // Say why a line is there that is clicked, or place guide points.
         if let Some(pointer) = response
             .interact_pointer_pos()
             .filter(|_| response.clicked())
         {
-            self.point_at(pointer, place);
+            self.click(pointer, place, ui);
+        }
+        if self.places_guides {
+            self.show_guides(ui, place);
         }
         self.show_why(ui, room, place);
 

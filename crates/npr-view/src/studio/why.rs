@@ -20,8 +20,30 @@ impl Studio {
         self.asked.answer.as_ref()?.line.as_ref()
     }
 
+    /// Takes what the host tells, unless something else was asked since.
+    pub(super) fn take_answer(&mut self, answer: Answer, ui: &Ui) {
+        let asked = self.asked.open.map(|(change, _)| change);
+        if asked != Some(answer.change) {
+            return;
+        }
+        if self.asked.is_for_guide {
+            self.asked.clear();
+            return self.add_guide(answer.part.as_ref(), ui);
+        }
+        self.asked.answer = Some(answer);
+    }
+
+    /// Takes a click on the picture that covers `place`: it places guide points, or asks why a line is there.
+    pub(super) fn click(&mut self, pointer: Pos2, place: Rect, ui: &Ui) {
+        if self.places_guides && self.remove_guide(pointer, place, ui) {
+            return;
+        }
+        self.asked.is_for_guide = self.places_guides;
+        self.point_at(pointer, place);
+    }
+
     /// Asks what is at a place of the window, where the full picture covers `place`.
-    pub(super) fn point_at(&mut self, pointer: Pos2, place: Rect) {
+    fn point_at(&mut self, pointer: Pos2, place: Rect) {
         self.asked.clear();
         if !place.contains(pointer) {
             return;
@@ -60,7 +82,11 @@ impl Studio {
             return;
         }
 
-        // Show the card beside the click.
+        // Show the card on the other side of the picture.
+        let left = match at.x < room.center().x {
+            true => (room.right() - CARD_WIDTH - 30.0).max(room.left()),
+            false => room.left() + 10.0,
+        };
         let mut is_open = !ui.input(|input| input.key_pressed(egui::Key::Escape));
         let mut edit = None;
         let title = match answer.line {
@@ -70,7 +96,7 @@ impl Studio {
         egui::Window::new(title)
             .id(egui::Id::unique(("why", self.asked.number)))
             .open(&mut is_open)
-            .default_pos(at + egui::vec2(14.0, 14.0))
+            .default_pos(egui::pos2(left, room.top() + 10.0))
             .constrain_to(room)
             .collapsible(false)
             .resizable(false)
@@ -93,20 +119,22 @@ impl Studio {
     fn show_answer(&mut self, ui: &mut Ui, answer: &Answer) -> Option<Edit> {
         let mut edit = None;
         if let Some(line) = &answer.line {
-            for (i, fact) in line.facts.iter().enumerate() {
-                if i > 0 && !fact.name.is_empty() {
-                    ui.separator();
-                }
-                if !fact.name.is_empty() {
-                    ui.label(RichText::new(&fact.name).strong());
-                }
-                ui.label(&fact.text);
-                if let Some(key) = &fact.key {
-                    let link = ui.link(RichText::new(key).small());
-                    if link.on_hover_text("show this key in the panel").clicked() {
-                        self.panel.search = searched(key).to_owned();
+            for fact in &line.facts {
+                ui.horizontal_wrapped(|ui| {
+                    ui.spacing_mut().item_spacing.x = 5.0;
+                    if fact.name.is_empty() {
+                        ui.add_space(14.0);
+                    } else {
+                        ui.label(RichText::new(&fact.name).strong());
                     }
-                }
+                    ui.label(&fact.text);
+                    if let Some(key) = &fact.key {
+                        let link = ui.link(RichText::new(key).small());
+                        if link.on_hover_text("show this key in the panel").clicked() {
+                            searched(key).clone_into(&mut self.panel.search);
+                        }
+                    }
+                });
             }
             ui.separator();
             if ui.button(line.removal.text()).clicked() {
@@ -166,6 +194,6 @@ fn mark(ui: &Ui, line: &ToldLine, place: Rect) {
     painter.line(points.clone(), halo);
     painter.line(
         points,
-        Stroke::new(2.5, Color32::from_rgb(0xe0, 0x20, 0x60)),
+        Stroke::new(2.5, Color32::from_rgb(0x10, 0x80, 0xff)),
     );
 }
