@@ -30,7 +30,7 @@ mod viewpoint;
 pub mod window;
 
 pub use host::{Host, News, Order, Picture, Take, shell_line};
-pub use pose::{Cast, Clip, LookAt, Pose};
+pub use pose::{Cast, Clip, Face, LookAt, Pose};
 pub use sheet::Sheet;
 pub use studio::Studio;
 pub use viewpoint::Viewpoint;

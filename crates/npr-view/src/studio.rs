@@ -1,6 +1,7 @@
 //! All that is seen: the picture, the panel and what is told below.
 
 mod canvas;
+mod figure;
 mod timeline;
 
 use egui::{Key, KeyboardShortcut, Modifiers, RichText, TextureHandle, Ui};
@@ -167,6 +168,7 @@ impl Studio {
                         self.viewpoint = self.viewpoint.filter(|_| self.scene == name);
                         if self.scene != name {
                             self.pose = Pose::default();
+                            self.history.forget_faces();
                         }
                         self.ordered = None;
                         self.changed(ui);
@@ -262,12 +264,12 @@ impl Studio {
     }
 
     fn undo(&mut self, ui: &Ui) {
-        self.history.undo(&mut self.sheet);
+        self.history.undo(&mut self.sheet, &mut self.pose.face);
         self.changed(ui);
     }
 
     fn redo(&mut self, ui: &Ui) {
-        self.history.redo(&mut self.sheet);
+        self.history.redo(&mut self.sheet, &mut self.pose.face);
         self.changed(ui);
     }
 
@@ -395,7 +397,10 @@ impl Studio {
         ui.separator();
         let edits = egui::ScrollArea::vertical()
             .auto_shrink([false; 2])
-            .show(ui, |ui| self.panel.show(ui, &self.sheet))
+            .show(ui, |ui| {
+                self.show_figure(ui);
+                self.panel.show(ui, &self.sheet)
+            })
             .inner;
         for edit in &edits {
             self.edit(edit, ui);

@@ -4,7 +4,7 @@ use crate::arguments::{
     CameraArguments, ExpressionShare, LookedAt, Point, PoseArguments, RenderArguments, Size,
     ViewArguments,
 };
-use npr_view::{LookAt, Order, Pose};
+use npr_view::{Face, LookAt, Order, Pose};
 use std::path::{Path, PathBuf};
 
 /// The arguments of `npr render` that draw the same.
@@ -56,18 +56,31 @@ fn pose_arguments(pose: &Pose) -> PoseArguments {
         time: pose.time_s,
         motion: pose.motion.as_ref().map(PathBuf::from),
         pose: pose.bones.as_ref().map(PathBuf::from),
-        expressions: pose.expressions.iter().map(expression).collect(),
-        look_at: pose.look_at.map(|look_at| match look_at {
+        expressions: pose.face.expressions.iter().map(expression).collect(),
+        look_at: pose.face.look_at.map(|look_at| match look_at {
             LookAt::Camera => LookedAt::Camera,
             LookAt::Place(place) => LookedAt::Place(Point(place)),
         }),
     }
 }
 
+fn face_of(args: &PoseArguments) -> Face {
+    let mut face = Face {
+        expressions: Vec::new(),
+        look_at: args.look_at.map(|look_at| match look_at {
+            LookedAt::Camera => LookAt::Camera,
+            LookedAt::Place(place) => LookAt::Place(place.0),
+        }),
+    };
+    for asked in &args.expressions {
+        face.set_share(&asked.name, Some(asked.share));
+    }
+    face
+}
+
 /// The pose of a studio that arguments ask for at first.
 pub fn pose_of(args: &PoseArguments) -> Pose {
     let text = |path: &PathBuf| path.to_string_lossy().into_owned();
-    let share = |asked: &ExpressionShare| (asked.name.clone(), asked.share);
     // A motion without a clip plays its first.
     let first = args.motion.as_ref().map(|_| "0".to_owned());
     Pose {
@@ -75,10 +88,6 @@ pub fn pose_of(args: &PoseArguments) -> Pose {
         time_s: args.time,
         motion: args.motion.as_ref().map(text),
         bones: args.pose.as_ref().map(text),
-        expressions: args.expressions.iter().map(share).collect(),
-        look_at: args.look_at.map(|look_at| match look_at {
-            LookedAt::Camera => LookAt::Camera,
-            LookedAt::Place(place) => LookAt::Place(place.0),
-        }),
+        face: face_of(args),
     }
 }

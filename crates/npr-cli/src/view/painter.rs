@@ -239,13 +239,18 @@ impl Painter {
         let job = self.job(&args)?;
         self.style_files.replace(watched(job.look.inputs()));
         self.is_stale.set(false);
+        let of_loaded = |order: &Order| {
+            let args = order_arguments(&self.args, &path, order);
+            playbill::painted(&args.drawing.pose.expressions, &loaded.scene)
+        };
+        let painted = of_loaded(first)?;
         let mut loaded = Loaded {
             scene: loaded.scene.clone(),
             format: loaded.format,
             volume: loaded.volume.clone(),
             inputs: loaded.inputs.clone(),
         };
-        pose::paint(&args.drawing.pose.expressions, &mut loaded.scene)?;
+        loaded.scene.materials.clone_from(&painted);
         let prepared = render::prepare(&job, loaded, None, &mut Progress::new(true))?;
         let limits = self.args.drawing.limits.limits();
         let mut actor = Actor::new(prepared.scene.clone(), limits);
@@ -262,7 +267,8 @@ impl Painter {
                 return Ok(next);
             };
             let is_same = asked.style == first.style && asked.overrides == first.overrides;
-            let is_painted_so = asked.pose.expressions == first.pose.expressions;
+            let is_painted_so = asked.pose.face.expressions == first.pose.face.expressions
+                || of_loaded(asked).is_ok_and(|other| other == painted);
             let serves = is_same || asked.is_draft && self.serves(&style, &path, asked);
             if self.is_stale.get() || !serves || !is_painted_so {
                 return Ok(next);
