@@ -17,6 +17,7 @@
 //! # Ok::<(), npr_stylesheet::StyleError>(())
 //! ```
 
+mod film;
 mod history;
 mod host;
 mod pace;
@@ -29,6 +30,7 @@ mod viewpoint;
 #[cfg(feature = "window")]
 pub mod window;
 
+pub use film::{Film, FilmForm};
 pub use host::{Host, News, Order, Picture, Take, shell_line};
 pub use pose::{Cast, Clip, Face, LookAt, Pose};
 pub use sheet::Sheet;

@@ -2,6 +2,7 @@
 
 mod canvas;
 mod figure;
+mod filming;
 mod timeline;
 
 use egui::{Key, KeyboardShortcut, Modifiers, RichText, TextureHandle, Ui};
@@ -15,6 +16,7 @@ use crate::panel::{Edit, Panel};
 use crate::pose::Pose;
 use crate::sheet::Sheet;
 use crate::viewpoint::Viewpoint;
+use filming::Filming;
 use timeline::Timeline;
 
 /// Seconds without a change after which the picture is drawn in full.
@@ -35,6 +37,7 @@ pub struct Studio {
     /// How the scene stands.
     pose: Pose,
     timeline: Timeline,
+    filming: Filming,
     /// Width and height of pictures, where they do not follow the window.
     fixed_size: Option<[u32; 2]>,
     pace: Pace,
@@ -67,6 +70,7 @@ impl Studio {
             viewpoint: None,
             pose: Pose::default(),
             timeline: Timeline::default(),
+            filming: Filming::default(),
             fixed_size: size,
             pace: Pace::default(),
             change: 1,
@@ -176,6 +180,7 @@ impl Studio {
                     self.scene = name;
                     self.take_cast(*cast, ui);
                 }
+                News::Film(done) => self.filming.done = done,
                 News::StyleChanged => {
                     let name = self.sheet.name().to_owned();
                     self.take_style(&name, ui);
@@ -386,6 +391,7 @@ impl Studio {
             if response.on_hover_text("Ctrl+Y").clicked() {
                 self.redo(ui);
             }
+            self.show_films(ui);
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 for (text, is_open) in [("Fold all", false), ("Unfold all", true)] {
                     if ui.add(small(text)).clicked() {
@@ -437,6 +443,7 @@ impl Studio {
     /// Shows what is told, or how the picture was drawn.
     fn show_told(&mut self, ui: &mut Ui) {
         ui.horizontal_wrapped(|ui| {
+            self.show_filming(ui);
             if let Some((text, is_fault)) = &self.told {
                 let text = match is_fault {
                     true => RichText::new(text).color(ui.visuals().error_fg_color),

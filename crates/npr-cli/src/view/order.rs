@@ -1,10 +1,10 @@
 //! Orders of a studio as arguments of `npr render`.
 
 use crate::arguments::{
-    CameraArguments, ExpressionShare, LookedAt, Point, PoseArguments, RenderArguments, Size,
-    ViewArguments,
+    AnimateArguments, CameraArguments, ExpressionShare, FilmArguments, LineArguments, LookedAt,
+    Point, PoseArguments, RenderArguments, SheetArguments, Size, Switch, ViewArguments,
 };
-use npr_view::{Face, LookAt, Order, Pose};
+use npr_view::{Face, Film, LookAt, Order, Pose};
 use std::path::{Path, PathBuf};
 
 /// The arguments of `npr render` that draw the same.
@@ -43,6 +43,34 @@ pub fn order_arguments(args: &ViewArguments, scene: &Path, order: &Order) -> Ren
         };
     }
     args
+}
+
+/// The arguments of `npr animate` that draw a film into files of a name.
+pub fn film_arguments(
+    args: &ViewArguments,
+    scene: &Path,
+    (film, order): (&Film, &Order),
+    output: &Path,
+) -> AnimateArguments {
+    let picture = order_arguments(args, scene, order);
+    AnimateArguments {
+        scene: picture.scene,
+        output: Some(output.to_owned()),
+        film: FilmArguments {
+            frames: None,
+            length: None,
+            fps: film.fps,
+            turntable: film.turns,
+            orbit: None,
+            hold: Switch::default(),
+            resume: false,
+        },
+        lines_only: false,
+        lines: LineArguments::default(),
+        sheet: SheetArguments::default(),
+        drawing: picture.drawing,
+        cache: picture.cache,
+    }
 }
 
 /// The pose of a studio as arguments.

@@ -22,10 +22,13 @@ use npr_gpu::engine::Engine;
 use npr_gpu::processor::Processor;
 use npr_render::{Renderer, RendererOptions};
 use npr_stylesheet::Style;
-use npr_view::{News, Order, Picture, Take, Viewpoint};
+use npr_view::{Film, News, Order, Picture, Take, Viewpoint};
 use std::cell::{Cell, RefCell};
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
+use std::rc::Rc;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
 use std::time::{Duration, Instant, SystemTime};
 
@@ -44,6 +47,8 @@ pub enum Ask {
     Open(PathBuf),
     /// Write the picture of an order, or its lines, into a file.
     Save(Take, Order),
+    /// Draw a film.
+    Film(Film, Order),
     /// Nobody asks any more.
     End,
 }
@@ -54,6 +59,10 @@ pub struct Painter {
     asks: Receiver<Ask>,
     news: Sender<News>,
     wake: Box<dyn Fn() + Send>,
+    /// Where files go that are taken away.
+    folder: PathBuf,
+    /// Whether the film that is drawn is to end.
+    cancel: Arc<AtomicBool>,
     /// What was asked for and is still to be done.
     queue: RefCell<VecDeque<Ask>>,
     /// The files that scene and style are made from, with the time of their last change.
@@ -86,6 +95,7 @@ impl Painter {
         asks: Receiver<Ask>,
         news: Sender<News>,
         wake: Box<dyn Fn() + Send>,
+        (folder, cancel): (PathBuf, Arc<AtomicBool>),
     ) -> Self {
         let first = Ask::Open(args.scene.clone());
         Self {
@@ -96,6 +106,8 @@ impl Painter {
             asks,
             news,
             wake,
+            folder,
+            cancel,
             queue: RefCell::new(VecDeque::from([first])),
             scene_files: RefCell::default(),
             style_files: RefCell::default(),
@@ -104,7 +116,12 @@ impl Painter {
     }
 
     /// Does what is asked for until nobody asks any more.
-    pub fn work(&self) {
+    pub fn work(self) {
+        let this = Rc::new(self);
+        this.work_on();
+    }
+
+    fn work_on(self: &Rc<Self>) {
         let mut engine = match self.engine() {
             Ok(engine) => engine,
             Err(fault) => {
@@ -123,6 +140,10 @@ impl Painter {
                 }
                 Ask::Save(take, order) => {
                     self.save(take, &order);
+                    self.next()
+                }
+                Ask::Film(film, order) => {
+                    self.film(&film, &order);
                     self.next()
                 }
                 // Poses of another scene may not fit; at first there was none.
@@ -223,7 +244,24 @@ impl Painter {
 
     fn save(&self, take: Take, order: &Order) {
         let scene = self.scene.borrow().clone();
-        let saved = save::picture(&self.args, &scene, (take, order));
+        let saved = save::picture(&self.args, (&self.folder, &scene), (take, order));
+        self.tell(match saved {
+            Ok(path) => News::Done(format!("{} is written", quoted(&path))),
+            Err(fault) => News::Fault(fault.message),
+        });
+    }
+
+    /// Draws a film, tells how far it is, and ends it where that is asked for.
+    fn film(self: &Rc<Self>, film: &Film, order: &Order) {
+        let scene = self.scene.borrow().clone();
+        let this = self.clone();
+        let mut progress = Progress::told_to(Rc::new(move |done, of| {
+            this.tell(News::Film(Some([done, of])));
+            !this.cancel.load(Ordering::Relaxed)
+        }));
+        let places = (self.folder.as_path(), scene.as_path());
+        let saved = save::film(&self.args, places, (film, order), &mut progress);
+        self.tell(News::Film(None));
         self.tell(match saved {
             Ok(path) => News::Done(format!("{} is written", quoted(&path))),
             Err(fault) => News::Fault(fault.message),

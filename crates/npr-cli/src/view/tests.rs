@@ -10,6 +10,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
+mod films;
 mod moments;
 
 /// A box on a plate.
@@ -42,7 +43,7 @@ impl Shop {
         let Command::View(said) = parsed.command else {
             panic!("another command");
         };
-        let desk = Desk::new(&said.0, Box::new(|| {})).expect("a desk");
+        let desk = Desk::beside(folder.path(), &said.0, Box::new(|| {})).expect("a desk");
         Self { folder, desk }
     }
 

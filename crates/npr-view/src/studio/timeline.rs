@@ -50,8 +50,18 @@ impl Timeline {
         self.began.is_some()
     }
 
+    /// Stops at the frame that is shown.
+    pub fn pause(&mut self) {
+        self.began = None;
+    }
+
+    /// Frames a second.
+    pub fn fps(&self) -> f32 {
+        self.fps
+    }
+
     /// Whether there is anything that could play.
-    fn has_time(&self) -> bool {
+    pub fn has_time(&self) -> bool {
         !self.cast.clips.is_empty() || self.cast.flows
     }
 

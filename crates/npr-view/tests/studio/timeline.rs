@@ -1,7 +1,7 @@
 //! Time in the window: what plays, which moment is drawn, and what is said of it.
 
 use super::*;
-use npr_view::{Cast, Clip, LookAt, Pose};
+use npr_view::{Cast, Clip, FilmForm, LookAt, Pose};
 
 /// What of a scene can move: two clips.
 fn cast() -> Cast {
@@ -268,4 +268,55 @@ fn expressions_and_looks_are_said_and_undone() {
     harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
     harness.run_steps(3);
     assert_eq!(last(&easel).pose, Pose::default());
+}
+
+#[test]
+fn films_are_taken_of_what_plays_and_of_a_turn() {
+    let (mut harness, easel) = stage([1000.0, 700.0], Pose::default(), cast());
+    harness.key_press(Key::ArrowRight);
+    harness.run_steps(4);
+    harness.get_by_label("Film").click();
+    harness.run_steps(3);
+    harness.get_by_label("GIF").click();
+    harness.run_steps(3);
+    let (film, order) = easel.0.borrow().films[0].clone();
+    assert_eq!(
+        (film.form, film.plays, film.turns),
+        (FilmForm::Gif, true, false)
+    );
+    assert_eq!(
+        (order.pose.clip.as_deref(), order.pose.time_s),
+        (Some("Walk"), None)
+    );
+    assert_eq!(order.viewpoint, Some(FRONT));
+
+    // It tells how far it is, and can be ended.
+    easel.0.borrow_mut().news = vec![News::Film(Some([3, 48]))];
+    harness.run_steps(2);
+    let told = harness.query_by_label("frame 3 of 48 of the film is drawn");
+    assert!(told.is_some());
+    harness.get_by_label("Cancel").click();
+    harness.run_steps(2);
+    assert_eq!(easel.0.borrow().cancelled, 1);
+    easel.0.borrow_mut().news = vec![News::Film(None)];
+    harness.run_steps(2);
+    assert!(harness.query_by_label("Cancel").is_none());
+
+    // A turn around the moment that is shown.
+    harness.get_by_label("Film").click();
+    harness.run_steps(3);
+    harness.get_by_label("what plays").click();
+    harness.run_steps(2);
+    assert_eq!(harness.state().film(FilmForm::Apng), None);
+    harness.get_by_label("the camera turns once").click();
+    harness.run_steps(2);
+    harness.get_by_label("PNG frames").click();
+    harness.run_steps(3);
+    let (film, order) = easel.0.borrow().films[1].clone();
+    assert_eq!(
+        (film.form, film.plays, film.turns),
+        (FilmForm::Frames, false, true)
+    );
+    assert_eq!(order.pose.time_s, Some(1.0 / 24.0));
+    assert_eq!(film.options(), ["--fps=24", "--turntable"]);
 }
