@@ -41,13 +41,8 @@ pub fn animate(args: &AnimateArguments) -> Result<(), Fault> {
     if args.drawing.look.dump_style {
         return dump_style(&args.look(), &args.drawing);
     }
-    let film = FilmJob::resolve(args)?;
     let mut progress = Progress::new(args.drawing.quiet);
-    let drawn = match film.lines {
-        Some(format) => draw_lines(&film, format, &mut progress)?,
-        None => draw_frames(&film, &mut progress)?,
-    };
-    let Some(drawn) = drawn else {
+    let Some(drawn) = draw(args, &mut progress)? else {
         // All frames are there.
         return Ok(());
     };
@@ -57,6 +52,18 @@ pub fn animate(args: &AnimateArguments) -> Result<(), Fault> {
         let _ = std::io::stderr().write_all(timings.reported(form).as_bytes());
     }
     Ok(())
+}
+
+/// Draws the film of some arguments; gives nothing where all of its frames are there.
+pub fn draw(
+    args: &AnimateArguments,
+    progress: &mut Progress,
+) -> Result<Option<Drawn<Vec<PassTime>>>, Fault> {
+    let film = FilmJob::resolve(args)?;
+    match film.lines {
+        Some(format) => draw_lines(&film, format, progress),
+        None => draw_frames(&film, progress),
+    }
 }
 
 impl AnimateArguments {

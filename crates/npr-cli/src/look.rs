@@ -30,7 +30,8 @@ pub struct Look {
     pictures: Vec<NamedFile>,
     /// Pictures of its id maps.
     id_maps: Vec<NamedFile>,
-    style_file: Option<PathBuf>,
+    /// The style file and its parents.
+    style_files: Vec<PathBuf>,
 }
 
 /// A file that a style names.
@@ -60,7 +61,7 @@ impl Look {
     pub fn resolve(args: &LookArguments, external: Option<&Path>) -> Result<Self, Fault> {
         // Read the style, and apply the user's overrides.
         let source = StyleSource::of(args.style.as_deref());
-        let mut stated = source.load(external)?;
+        let (mut stated, style_files) = source.load_with_files(external)?;
         let written = stated.style().clone();
         stated
             .set_all(&args.overrides)
@@ -79,7 +80,7 @@ impl Look {
             fonts: font_files(&style, &written, source.file()),
             pictures: picture_files(&style, &written, source.file(), Style::named_pictures),
             id_maps: picture_files(&style, &written, source.file(), Style::id_map_pictures),
-            style_file: source.file().map(Path::to_owned),
+            style_files,
             stated,
             style,
         })
@@ -142,7 +143,8 @@ impl Look {
         let background = self.background.iter().map(PictureFile::path);
         let named = self.fonts.iter().chain(&self.pictures).chain(&self.id_maps);
         let named = named.map(|named| named.file.path());
-        background.chain(named).chain(self.style_file.clone())
+        let styles = self.style_files.iter().cloned();
+        background.chain(named).chain(styles)
     }
 
     /// Whether the background may leave the picture transparent.

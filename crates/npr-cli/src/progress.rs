@@ -3,15 +3,21 @@
 use indicatif::{ProgressBar, ProgressStyle};
 use std::cell::Cell;
 use std::io::{self, IsTerminal};
+use std::rc::Rc;
 use std::time::{Duration, Instant};
 
 /// Time between two updates of the line on the terminal.
 const TICK: Duration = Duration::from_millis(100);
 
+/// Is told how many parts of a step are done, and of how many; says whether the work goes on.
+pub type Watch = Rc<dyn Fn(usize, usize) -> bool>;
+
 /// The steps of a run. A step is shown while it lasts, and timed.
 pub struct Progress {
     /// The line on the terminal; `None` where nobody would see it.
     bar: Option<ProgressBar>,
+    /// Who else is told.
+    watch: Option<Watch>,
     done: Vec<(&'static str, Duration)>,
 }
 
@@ -27,8 +33,17 @@ impl Progress {
         }
         Self {
             bar,
+            watch: None,
             done: Vec::new(),
         }
+    }
+
+    /// A progress that a part of this program is told, which may end the work.
+    #[cfg(any(test, feature = "view"))]
+    pub fn told_to(watch: Watch) -> Self {
+        let mut progress = Self::new(true);
+        progress.watch = Some(watch);
+        progress
     }
 
     /// Runs one step of the work, and records its time under `name`.
@@ -46,6 +61,7 @@ impl Progress {
     pub fn counter(&self) -> Counter {
         Counter {
             bar: self.bar.clone(),
+            watch: self.watch.clone(),
             start: Cell::new(None),
         }
     }
@@ -67,6 +83,7 @@ impl Progress {
 /// Shows how far one step is, with an estimate of the time left.
 pub struct Counter {
     bar: Option<ProgressBar>,
+    watch: Option<Watch>,
     /// When the first part was reported, and how many were done then.
     start: Cell<Option<(Instant, usize)>>,
 }
@@ -77,9 +94,10 @@ impl Counter {
         self.show(name, [done, of], false);
     }
 
-    /// The same with how many are done a second.
-    pub fn tell_pace(&self, name: &str, done: usize, of: usize) {
+    /// The same with how many are done a second; gives whether the work goes on.
+    pub fn tell_pace(&self, name: &str, done: usize, of: usize) -> bool {
         self.show(name, [done, of], true);
+        self.watch.as_ref().is_none_or(|watch| watch(done, of))
     }
 
     fn show(&self, name: &str, [done, of]: [usize; 2], with_pace: bool) {

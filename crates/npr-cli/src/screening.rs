@@ -1,7 +1,7 @@
 //! Films while they are drawn: frames are encoded and written on a thread of its own, beside the drawing.
 
 use crate::engine::Drawn;
-use crate::fault::Fault;
+use crate::fault::{Exit, Fault};
 use crate::message;
 use crate::progress::{Counter, Progress};
 use crate::reel::{Reel, Shown};
@@ -159,8 +159,12 @@ impl Screening {
         self.add_times(&take.times);
         let is_taken = self.hand.send(take.shown).is_ok();
         self.done.set(self.done() + 1);
-        self.counter.tell_pace(DRAW, self.done(), self.count);
-        is_taken
+        let goes_on = self.counter.tell_pace(DRAW, self.done(), self.count);
+        if !goes_on {
+            let fault = Fault::new(Exit::Failed, "the film is cancelled");
+            *self.failed.borrow_mut() = Some(fault);
+        }
+        is_taken && goes_on
     }
 
     fn add_times(&self, more: &[PassTime]) {
@@ -224,7 +228,6 @@ pub fn screened(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fault::Exit;
     use crate::reel::{Encoding, Stills};
     use crate::render;
     use crate::target::Target;

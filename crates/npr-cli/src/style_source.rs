@@ -6,6 +6,7 @@ use crate::message::quoted;
 use crate::output::folder_of;
 use npr_scene::{FolderResources, Resources};
 use npr_stylesheet::{DEFAULT_PRESET, Stated, TEXT_BYTES_MAX};
+use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 
 /// A preset or a style file.
@@ -43,16 +44,25 @@ impl StyleSource {
 
     /// Loads the style. Its parents are looked for in its own folder and below, and in `external`.
     pub fn load(&self, external: Option<&Path>) -> Result<Stated, Fault> {
+        self.load_with_files(external).map(|(stated, _)| stated)
+    }
+
+    /// The same with the files that it was read from: its own, and those of its parents.
+    pub fn load_with_files(
+        &self,
+        external: Option<&Path>,
+    ) -> Result<(Stated, Vec<PathBuf>), Fault> {
         match self {
-            Self::Preset(name) => {
-                Stated::preset(name).map_err(|error| Fault::new(Exit::Usage, error))
-            }
+            Self::Preset(name) => match Stated::preset(name) {
+                Ok(stated) => Ok((stated, Vec::new())),
+                Err(error) => Err(Fault::new(Exit::Usage, error)),
+            },
             Self::File(path) => load_file(path, external),
         }
     }
 }
 
-fn load_file(path: &Path, external: Option<&Path>) -> Result<Stated, Fault> {
+fn load_file(path: &Path, external: Option<&Path>) -> Result<(Stated, Vec<PathBuf>), Fault> {
     // Read one byte more than a style may have, so that the parser of styles reports its own limit.
     let bytes = read_file(path, TEXT_BYTES_MAX as u64 + 1).map_err(|fault| match fault.exit {
         Exit::Failed => fault,
@@ -63,13 +73,16 @@ fn load_file(path: &Path, external: Option<&Path>) -> Result<Stated, Fault> {
     };
     let text = String::from_utf8(bytes).map_err(|_| wrong(&"it is not UTF-8 text"))?;
     let folder = FolderResources::new(folder_of(path), external)?;
+    let files = RefCell::new(vec![path.to_owned()]);
     let parent = |name: &str| {
+        files.borrow_mut().push(folder_of(path).join(name));
         let bytes = folder
             .read(name, TEXT_BYTES_MAX as u64 + 1)
             .map_err(|error| Fault::from(error).message)?;
         String::from_utf8(bytes).map_err(|_| "it is not UTF-8 text".to_owned())
     };
-    Stated::from_toml(&text, &parent).map_err(|error| wrong(&error))
+    let stated = Stated::from_toml(&text, &parent).map_err(|error| wrong(&error))?;
+    Ok((stated, files.into_inner()))
 }
 
 #[cfg(test)]

@@ -12,12 +12,14 @@ use crate::fault::{Exit, Fault};
 use crate::message::quoted;
 use crate::style_source::StyleSource;
 use npr_stylesheet::{DEFAULT_PRESET, Stated};
-use npr_view::{Host, News, Order, Question, Sheet, Studio, Take, shell_line};
+use npr_view::{Film, Host, News, Order, Question, Sheet, Studio, Take, shell_line};
 use order::{pose_of, render_arguments};
 use painter::{Ask, Painter};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
-use std::thread;
+use std::thread::{self, JoinHandle};
 
 /// Options that the studio says itself.
 const OWN_OPTIONS: [&str; 13] = [
@@ -51,6 +53,13 @@ pub struct Desk {
     own: Vec<News>,
     /// Whether it was told that the painter has ended.
     has_ended: bool,
+    /// Where files go that are taken away.
+    folder: PathBuf,
+    /// Whether the film that is drawn is to end.
+    cancel: Arc<AtomicBool>,
+    /// Whether a film is drawn.
+    is_filming: bool,
+    painter: Option<JoinHandle<()>>,
 }
 
 /// Refuses a style that cannot be read, before there is a window.
@@ -81,12 +90,24 @@ fn sheet_of(args: &ViewArguments) -> Result<Sheet, Fault> {
 }
 
 impl Desk {
-    /// A desk with a painter that has opened the scene of a command line. `wake` is called when there are news.
+    /// A desk with a painter that has opened the scene of a command line. `wake` is called when there are news. Files
+    /// that are taken away go into the current folder.
     fn new(said: &Said<ViewArguments>, wake: Box<dyn Fn() + Send>) -> Result<Self, Fault> {
+        Self::beside(Path::new("."), said, wake)
+    }
+
+    /// The same with a folder that files go into.
+    fn beside(
+        folder: &Path,
+        said: &Said<ViewArguments>,
+        wake: Box<dyn Fn() + Send>,
+    ) -> Result<Self, Fault> {
         let (asks, of_desk) = channel();
         let (to_desk, news) = channel();
-        let painter = Painter::new(said.args.clone(), of_desk, to_desk, wake);
-        thread::Builder::new()
+        let cancel = Arc::new(AtomicBool::new(false));
+        let taken = (folder.to_owned(), cancel.clone());
+        let painter = Painter::new(said.args.clone(), of_desk, to_desk, wake, taken);
+        let painter = thread::Builder::new()
             .name("painter".to_owned())
             .spawn(move || painter.work())?;
         Ok(Self {
@@ -97,13 +118,32 @@ impl Desk {
             news,
             own: Vec::new(),
             has_ended: false,
+            folder: folder.to_owned(),
+            cancel,
+            is_filming: false,
+            painter: Some(painter),
         })
     }
 
     /// The words of a command line that draws the picture of an order.
     fn words(&self, order: &Order) -> Vec<String> {
+        self.words_of("render", order)
+    }
+
+    /// The words of a command line that draws a film.
+    fn film_words(&self, film: &Film, order: &Order) -> Vec<String> {
+        let stem = self.scene.file_stem().unwrap_or_default();
+        let mut words = self.words_of("animate", order);
+        words.extend(film.options());
+        let name = format!("{}{}", stem.to_string_lossy(), film.form.ending());
+        words.extend(["-o".to_owned(), name]);
+        words
+    }
+
+    /// The words of a command that draws what an order says.
+    fn words_of(&self, command: &str, order: &Order) -> Vec<String> {
         let scene = self.scene.to_string_lossy().into_owned();
-        let mut words = ["npr", "render"].map(str::to_owned).to_vec();
+        let mut words = ["npr", command].map(str::to_owned).to_vec();
         words.push(scene);
         words.extend(order.options());
         let is_placed = order.viewpoint.is_some();
@@ -152,7 +192,10 @@ impl Host for Desk {
                     self.opened += 1;
                     all.push(News::Scene(path, cast));
                 }
-                Ok(news) => all.push(news),
+                Ok(news) => {
+                    self.is_filming &= news != News::Film(None);
+                    all.push(news);
+                }
                 Err(TryRecvError::Empty) => return all,
                 Err(TryRecvError::Disconnected) => {
                     if !self.has_ended {
@@ -173,13 +216,39 @@ impl Host for Desk {
     fn save(&mut self, take: Take, sheet: &Sheet, order: &Order) {
         match take {
             Take::Style => {
-                let saved = save::style(&self.scene, sheet);
+                let saved = save::style(&self.folder, &self.scene, sheet);
                 self.own.push(match saved {
                     Ok(path) => News::Done(format!("{} holds the style", quoted(&path))),
                     Err(fault) => News::Fault(fault.message),
                 });
             }
             Take::Png | Take::Svg => self.ask(Ask::Save(take, order.clone())),
+        }
+    }
+
+    fn film_command(&self, film: &Film, order: &Order) -> String {
+        shell_line(&self.film_words(film, order))
+    }
+
+    fn film(&mut self, film: &Film, order: &Order) {
+        self.cancel.store(false, Ordering::Relaxed);
+        self.is_filming = true;
+        self.ask(Ask::Film(*film, order.clone()));
+    }
+
+    fn cancel(&mut self) {
+        self.cancel.store(true, Ordering::Relaxed);
+    }
+}
+
+impl Drop for Desk {
+    /// Ends a film that is drawn, so that no half of it stays.
+    fn drop(&mut self) {
+        if self.is_filming {
+            self.cancel();
+            self.ask(Ask::End);
+            // What it has to say of its end concerns nobody any more.
+            let _ = self.painter.take().map(JoinHandle::join);
         }
     }
 }

@@ -4,7 +4,7 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use npr_stylesheet::Stated;
-use npr_view::{Host, News, Order, Question, Sheet, Studio, Take};
+use npr_view::{Film, Host, News, Order, Question, Sheet, Studio, Take};
 use std::hint::black_box;
 use toml::Value;
 
@@ -31,6 +31,14 @@ impl Host for Idle {
     }
 
     fn save(&mut self, _: Take, _: &Sheet, _: &Order) {}
+
+    fn film_command(&self, _: &Film, order: &Order) -> String {
+        self.command(order)
+    }
+
+    fn film(&mut self, _: &Film, _: &Order) {}
+
+    fn cancel(&mut self) {}
 }
 
 fn toon() -> Sheet {

@@ -2,6 +2,7 @@
 
 use npr_stylesheet::Stated;
 
+use crate::film::Film;
 use crate::pose::{Cast, Pose};
 use crate::sheet::Sheet;
 use crate::value::number_text;
@@ -96,6 +97,8 @@ pub enum News {
     /// Another scene is drawn from now on, or the same read anew, of this name, and with this to move. What was ordered
     /// before and is not drawn yet is drawn no more, but for the first scene.
     Scene(String, Box<Cast>),
+    /// How many frames of a film are drawn, and of how many; none when it has ended.
+    Film(Option<[usize; 2]>),
     /// The style file has changed where it lies.
     StyleChanged,
     /// What is at a place of a picture.
@@ -139,6 +142,15 @@ pub trait Host {
 
     /// Writes a file; [`News`] tells under which name.
     fn save(&mut self, take: Take, sheet: &Sheet, order: &Order);
+
+    /// A command line that draws a film, ready for a shell.
+    fn film_command(&self, film: &Film, order: &Order) -> String;
+
+    /// Draws a film and writes it; [`News`] tells how far it is, and under which name it lies.
+    fn film(&mut self, film: &Film, order: &Order);
+
+    /// Ends the film that is drawn, of which no file stays that is not whole.
+    fn cancel(&mut self);
 }
 
 /// Words as a line for a shell: those with anything but plain letters in single quotes.

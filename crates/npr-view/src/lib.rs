@@ -17,6 +17,7 @@
 //! # Ok::<(), npr_stylesheet::StyleError>(())
 //! ```
 
+mod film;
 mod history;
 mod host;
 mod pace;
@@ -30,8 +31,9 @@ mod why;
 #[cfg(feature = "window")]
 pub mod window;
 
+pub use film::{Film, FilmForm};
 pub use host::{Host, News, Order, Picture, Question, Take, shell_line};
-pub use pose::{Cast, Clip, LookAt, Pose};
+pub use pose::{Cast, Clip, Face, LookAt, Pose};
 pub use sheet::Sheet;
 pub use studio::Studio;
 pub use viewpoint::Viewpoint;

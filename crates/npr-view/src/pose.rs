@@ -13,10 +13,38 @@ pub struct Pose {
     pub motion: Option<String>,
     /// The file of bones that are turned.
     pub bones: Option<String>,
-    /// How much expressions of a figure show, 0 to 1, by their names.
+    /// What the face of a figure does besides.
+    pub face: Face,
+}
+
+/// What the face of a figure does.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Face {
+    /// How much expressions show, 0 to 1, each name once.
     pub expressions: Vec<(String, f32)>,
-    /// What a figure looks at; none where its eyes stay as they are.
+    /// What the figure looks at; none where its eyes stay as they are.
     pub look_at: Option<LookAt>,
+}
+
+impl Face {
+    /// How much an expression shows; none where nobody says it.
+    pub fn share(&self, name: &str) -> Option<f32> {
+        let mut all = self.expressions.iter();
+        all.find_map(|(other, share)| (other == name).then_some(*share))
+    }
+
+    /// Lets an expression show so much; with none, as much as clip and file say.
+    pub fn set_share(&mut self, name: &str, share: Option<f32>) {
+        let place = self.expressions.iter().position(|(other, _)| other == name);
+        match (place, share) {
+            (Some(place), Some(share)) => self.expressions[place].1 = share,
+            (Some(place), None) => drop(self.expressions.remove(place)),
+            (None, share) => {
+                let said = share.map(|share| (name.to_owned(), share));
+                self.expressions.extend(said);
+            }
+        }
+    }
 }
 
 /// What a figure looks at.
@@ -49,11 +77,11 @@ impl Pose {
             words.extend(name.iter().map(|name| format!("--{option}={name}")));
         }
         words.extend(self.time_s.map(|time_s| format!("--time={time_s}")));
-        for (name, share) in &self.expressions {
+        for (name, share) in &self.face.expressions {
             let share = number_text(f64::from(*share));
             words.push(format!("--expression={name}={share}"));
         }
-        words.extend(self.look_at.map(|look_at| match look_at {
+        words.extend(self.face.look_at.map(|look_at| match look_at {
             LookAt::Camera => "--look-at=camera".to_owned(),
             LookAt::Place([x, y, z]) => format!("--look-at={x},{y},{z}"),
         }));
@@ -68,6 +96,10 @@ pub struct Cast {
     pub clips: Vec<Clip>,
     /// Whether pictures on its surfaces move in time, besides clips.
     pub flows: bool,
+    /// Names of the expressions of its figure.
+    pub expressions: Vec<String>,
+    /// Whether its figure can look somewhere.
+    pub can_look: bool,
     /// The file of the motion, where one is played.
     pub motion: Option<String>,
     /// Whether pictures are seen by a camera of the file, which clips may move.
@@ -95,8 +127,10 @@ mod tests {
             time_s: Some(-0.1),
             motion: Some("a b.vrma".to_owned()),
             bones: Some("bow.json".to_owned()),
-            expressions: vec![("happy".to_owned(), 0.3)],
-            look_at: Some(LookAt::Place([0.0, -1.5, 2.0])),
+            face: Face {
+                expressions: vec![("happy".to_owned(), 0.3)],
+                look_at: Some(LookAt::Place([0.0, -1.5, 2.0])),
+            },
         };
         assert_eq!(
             pose.options(),

@@ -1,6 +1,8 @@
 //! All that is seen: the picture, the panel and what is told below.
 
 mod canvas;
+mod figure;
+mod filming;
 mod guides;
 mod timeline;
 mod why;
@@ -17,6 +19,7 @@ use crate::pose::Pose;
 use crate::sheet::Sheet;
 use crate::viewpoint::Viewpoint;
 use crate::why::Asked;
+use filming::Filming;
 use timeline::Timeline;
 
 /// Seconds without a change after which the picture is drawn in full.
@@ -37,6 +40,7 @@ pub struct Studio {
     /// How the scene stands.
     pose: Pose,
     timeline: Timeline,
+    filming: Filming,
     /// Width and height of pictures, where they do not follow the window.
     fixed_size: Option<[u32; 2]>,
     pace: Pace,
@@ -73,6 +77,7 @@ impl Studio {
             viewpoint: None,
             pose: Pose::default(),
             timeline: Timeline::default(),
+            filming: Filming::default(),
             fixed_size: size,
             pace: Pace::default(),
             change: 1,
@@ -176,6 +181,7 @@ impl Studio {
                         self.viewpoint = self.viewpoint.filter(|_| self.scene == name);
                         if self.scene != name {
                             self.pose = Pose::default();
+                            self.history.forget_faces();
                         }
                         self.ordered = None;
                         self.changed(ui);
@@ -184,6 +190,7 @@ impl Studio {
                     self.take_cast(*cast, ui);
                 }
                 News::Pointed(answer) => self.take_answer(*answer, ui),
+                News::Film(done) => self.filming.done = done,
                 News::StyleChanged => {
                     let name = self.sheet.name().to_owned();
                     self.take_style(&name, ui);
@@ -272,12 +279,12 @@ impl Studio {
     }
 
     fn undo(&mut self, ui: &Ui) {
-        self.history.undo(&mut self.sheet);
+        self.history.undo(&mut self.sheet, &mut self.pose.face);
         self.changed(ui);
     }
 
     fn redo(&mut self, ui: &Ui) {
-        self.history.redo(&mut self.sheet);
+        self.history.redo(&mut self.sheet, &mut self.pose.face);
         self.changed(ui);
     }
 
@@ -400,6 +407,7 @@ impl Studio {
             guides.on_hover_text(
                 "a click on the model adds a guide point, where lines thin out; one on its dot takes it away",
             );
+            self.show_films(ui);
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 for (text, is_open) in [("Fold all", false), ("Unfold all", true)] {
                     if ui.add(small(text)).clicked() {
@@ -411,7 +419,10 @@ impl Studio {
         ui.separator();
         let edits = egui::ScrollArea::vertical()
             .auto_shrink([false; 2])
-            .show(ui, |ui| self.panel.show(ui, &self.sheet))
+            .show(ui, |ui| {
+                self.show_figure(ui);
+                self.panel.show(ui, &self.sheet)
+            })
             .inner;
         for edit in &edits {
             self.edit(edit, ui);
@@ -453,6 +464,7 @@ impl Studio {
     /// Shows what is told, or how the picture was drawn.
     fn show_told(&mut self, ui: &mut Ui) {
         ui.horizontal_wrapped(|ui| {
+            self.show_filming(ui);
             if let Some((text, is_fault)) = &self.told {
                 let text = match is_fault {
                     true => RichText::new(text).color(ui.visuals().error_fg_color),

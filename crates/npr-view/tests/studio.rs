@@ -20,7 +20,7 @@ use egui::{Key, Modifiers, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use npr_stylesheet::{Field, Form, Stated, fields};
-use npr_view::{Host, News, Order, Picture, Question, Sheet, Studio, Take, Viewpoint};
+use npr_view::{Film, Host, News, Order, Picture, Question, Sheet, Studio, Take, Viewpoint};
 use std::cell::RefCell;
 use std::rc::Rc;
 
@@ -31,6 +31,8 @@ struct Asked {
     opened: Vec<String>,
     saved: Vec<(Take, String)>,
     questions: Vec<Question>,
+    films: Vec<(Film, Order)>,
+    cancelled: usize,
     news: Vec<News>,
 }
 
@@ -75,6 +77,18 @@ impl Host for Easel {
 
     fn save(&mut self, take: Take, sheet: &Sheet, _: &Order) {
         self.0.borrow_mut().saved.push((take, sheet.file()));
+    }
+
+    fn film_command(&self, film: &Film, order: &Order) -> String {
+        [order.options(), film.options()].concat().join(" ")
+    }
+
+    fn film(&mut self, film: &Film, order: &Order) {
+        self.0.borrow_mut().films.push((*film, order.clone()));
+    }
+
+    fn cancel(&mut self) {
+        self.0.borrow_mut().cancelled += 1;
     }
 }
 

@@ -1,10 +1,10 @@
 //! Orders of a studio as arguments of `npr render`.
 
 use crate::arguments::{
-    CameraArguments, ExpressionShare, LookedAt, Point, PoseArguments, RenderArguments, Size,
-    ViewArguments,
+    AnimateArguments, CameraArguments, ExpressionShare, FilmArguments, LineArguments, LookedAt,
+    Point, PoseArguments, RenderArguments, SheetArguments, Size, Switch, ViewArguments,
 };
-use npr_view::{LookAt, Order, Pose};
+use npr_view::{Face, Film, LookAt, Order, Pose};
 use std::path::{Path, PathBuf};
 
 /// The arguments of `npr render` that draw the same.
@@ -45,6 +45,34 @@ pub fn order_arguments(args: &ViewArguments, scene: &Path, order: &Order) -> Ren
     args
 }
 
+/// The arguments of `npr animate` that draw a film into files of a name.
+pub fn film_arguments(
+    args: &ViewArguments,
+    scene: &Path,
+    (film, order): (&Film, &Order),
+    output: &Path,
+) -> AnimateArguments {
+    let picture = order_arguments(args, scene, order);
+    AnimateArguments {
+        scene: picture.scene,
+        output: Some(output.to_owned()),
+        film: FilmArguments {
+            frames: None,
+            length: None,
+            fps: film.fps,
+            turntable: film.turns,
+            orbit: None,
+            hold: Switch::default(),
+            resume: false,
+        },
+        lines_only: false,
+        lines: LineArguments::default(),
+        sheet: SheetArguments::default(),
+        drawing: picture.drawing,
+        cache: picture.cache,
+    }
+}
+
 /// The pose of a studio as arguments.
 fn pose_arguments(pose: &Pose) -> PoseArguments {
     let expression = |(name, share): &(String, f32)| ExpressionShare {
@@ -56,18 +84,31 @@ fn pose_arguments(pose: &Pose) -> PoseArguments {
         time: pose.time_s,
         motion: pose.motion.as_ref().map(PathBuf::from),
         pose: pose.bones.as_ref().map(PathBuf::from),
-        expressions: pose.expressions.iter().map(expression).collect(),
-        look_at: pose.look_at.map(|look_at| match look_at {
+        expressions: pose.face.expressions.iter().map(expression).collect(),
+        look_at: pose.face.look_at.map(|look_at| match look_at {
             LookAt::Camera => LookedAt::Camera,
             LookAt::Place(place) => LookedAt::Place(Point(place)),
         }),
     }
 }
 
+fn face_of(args: &PoseArguments) -> Face {
+    let mut face = Face {
+        expressions: Vec::new(),
+        look_at: args.look_at.map(|look_at| match look_at {
+            LookedAt::Camera => LookAt::Camera,
+            LookedAt::Place(place) => LookAt::Place(place.0),
+        }),
+    };
+    for asked in &args.expressions {
+        face.set_share(&asked.name, Some(asked.share));
+    }
+    face
+}
+
 /// The pose of a studio that arguments ask for at first.
 pub fn pose_of(args: &PoseArguments) -> Pose {
     let text = |path: &PathBuf| path.to_string_lossy().into_owned();
-    let share = |asked: &ExpressionShare| (asked.name.clone(), asked.share);
     // A motion without a clip plays its first.
     let first = args.motion.as_ref().map(|_| "0".to_owned());
     Pose {
@@ -75,10 +116,6 @@ pub fn pose_of(args: &PoseArguments) -> Pose {
         time_s: args.time,
         motion: args.motion.as_ref().map(text),
         bones: args.pose.as_ref().map(text),
-        expressions: args.expressions.iter().map(share).collect(),
-        look_at: args.look_at.map(|look_at| match look_at {
-            LookedAt::Camera => LookAt::Camera,
-            LookedAt::Place(place) => LookAt::Place(place.0),
-        }),
+        face: face_of(args),
     }
 }

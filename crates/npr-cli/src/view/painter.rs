@@ -23,10 +23,13 @@ use npr_gpu::engine::Engine;
 use npr_gpu::processor::Processor;
 use npr_render::{Renderer, RendererOptions, Spot};
 use npr_stylesheet::Style;
-use npr_view::{News, Order, Picture, Question, Take, Viewpoint};
+use npr_view::{Film, News, Order, Picture, Question, Take, Viewpoint};
 use std::cell::{Cell, RefCell};
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
+use std::rc::Rc;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
 use std::time::{Duration, Instant, SystemTime};
 
@@ -47,6 +50,8 @@ pub enum Ask {
     PointAt(Question),
     /// Write the picture of an order, or its lines, into a file.
     Save(Take, Order),
+    /// Draw a film.
+    Film(Film, Order),
     /// Nobody asks any more.
     End,
 }
@@ -57,6 +62,10 @@ pub struct Painter {
     asks: Receiver<Ask>,
     news: Sender<News>,
     wake: Box<dyn Fn() + Send>,
+    /// Where files go that are taken away.
+    folder: PathBuf,
+    /// Whether the film that is drawn is to end.
+    cancel: Arc<AtomicBool>,
     /// What was asked for and is still to be done.
     queue: RefCell<VecDeque<Ask>>,
     /// The files that scene and style are made from, with the time of their last change.
@@ -89,6 +98,7 @@ impl Painter {
         asks: Receiver<Ask>,
         news: Sender<News>,
         wake: Box<dyn Fn() + Send>,
+        (folder, cancel): (PathBuf, Arc<AtomicBool>),
     ) -> Self {
         let first = Ask::Open(args.scene.clone());
         Self {
@@ -99,6 +109,8 @@ impl Painter {
             asks,
             news,
             wake,
+            folder,
+            cancel,
             queue: RefCell::new(VecDeque::from([first])),
             scene_files: RefCell::default(),
             style_files: RefCell::default(),
@@ -107,7 +119,12 @@ impl Painter {
     }
 
     /// Does what is asked for until nobody asks any more.
-    pub fn work(&self) {
+    pub fn work(self) {
+        let this = Rc::new(self);
+        this.work_on();
+    }
+
+    fn work_on(self: &Rc<Self>) {
         let mut engine = match self.engine() {
             Ok(engine) => engine,
             Err(fault) => {
@@ -128,6 +145,10 @@ impl Painter {
                 Ask::PointAt(_) => self.next(),
                 Ask::Save(take, order) => {
                     self.save(take, &order);
+                    self.next()
+                }
+                Ask::Film(film, order) => {
+                    self.film(&film, &order);
                     self.next()
                 }
                 // Poses of another scene may not fit; at first there was none.
@@ -228,7 +249,24 @@ impl Painter {
 
     fn save(&self, take: Take, order: &Order) {
         let scene = self.scene.borrow().clone();
-        let saved = save::picture(&self.args, &scene, (take, order));
+        let saved = save::picture(&self.args, (&self.folder, &scene), (take, order));
+        self.tell(match saved {
+            Ok(path) => News::Done(format!("{} is written", quoted(&path))),
+            Err(fault) => News::Fault(fault.message),
+        });
+    }
+
+    /// Draws a film, tells how far it is, and ends it where that is asked for.
+    fn film(self: &Rc<Self>, film: &Film, order: &Order) {
+        let scene = self.scene.borrow().clone();
+        let this = self.clone();
+        let mut progress = Progress::told_to(Rc::new(move |done, of| {
+            this.tell(News::Film(Some([done, of])));
+            !this.cancel.load(Ordering::Relaxed)
+        }));
+        let places = (self.folder.as_path(), scene.as_path());
+        let saved = save::film(&self.args, places, (film, order), &mut progress);
+        self.tell(News::Film(None));
         self.tell(match saved {
             Ok(path) => News::Done(format!("{} is written", quoted(&path))),
             Err(fault) => News::Fault(fault.message),
@@ -244,13 +282,18 @@ impl Painter {
         let job = self.job(&args)?;
         self.style_files.replace(watched(job.look.inputs()));
         self.is_stale.set(false);
+        let of_loaded = |order: &Order| {
+            let args = order_arguments(&self.args, &path, order);
+            playbill::painted(&args.drawing.pose.expressions, &loaded.scene)
+        };
+        let painted = of_loaded(first)?;
         let mut loaded = Loaded {
             scene: loaded.scene.clone(),
             format: loaded.format,
             volume: loaded.volume.clone(),
             inputs: loaded.inputs.clone(),
         };
-        pose::paint(&args.drawing.pose.expressions, &mut loaded.scene)?;
+        loaded.scene.materials.clone_from(&painted);
         let prepared = render::prepare(&job, loaded, None, &mut Progress::new(true))?;
         let limits = self.args.drawing.limits.limits();
         let mut actor = Actor::new(prepared.scene.clone(), limits);
@@ -266,7 +309,8 @@ impl Painter {
                 return Ok(next);
             };
             let is_same = asked.style == first.style && asked.overrides == first.overrides;
-            let is_painted_so = asked.pose.expressions == first.pose.expressions;
+            let is_painted_so = asked.pose.face.expressions == first.pose.face.expressions
+                || of_loaded(asked).is_ok_and(|other| other == painted);
             let serves = is_same || asked.is_draft && self.serves(&style, &path, asked);
             if self.is_stale.get() || !serves || !is_painted_so {
                 return Ok(next);

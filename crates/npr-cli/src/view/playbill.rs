@@ -1,8 +1,11 @@
 //! What of a scene can move, and which files are motions for it.
 
+use crate::arguments::ExpressionShare;
 use crate::ending::has_ending;
+use crate::fault::Fault;
+use crate::pose;
 use crate::source::{Loaded, Source};
-use npr_scene::{Limits, Scene};
+use npr_scene::{Figure, Limits, Material, Scene};
 use npr_view::{Cast, Clip};
 use std::path::Path;
 
@@ -21,13 +24,27 @@ pub fn cast_of(scene: &Scene, motion: Option<&Path>, has_own_camera: bool) -> Ca
             seconds: clip.duration_s(),
         }
     });
+    let faces = scene.figure.iter().flat_map(|figure| &figure.expressions);
     let toons = scene.materials.iter().flat_map(|material| &material.toon);
     Cast {
         clips: clips.collect(),
         flows: toons.into_iter().any(|toon| !toon.flow.is_still()),
+        expressions: faces.map(|face| face.name.clone()).collect(),
+        can_look: scene.figure.as_ref().is_some_and(Figure::can_look),
         motion: motion.map(|path| path.to_string_lossy().into_owned()),
         has_own_camera,
     }
+}
+
+/// The materials of a scene as it was loaded, in the colours of expressions.
+pub fn painted(expressions: &[ExpressionShare], scene: &Scene) -> Result<Vec<Material>, Fault> {
+    let mut painted = Scene {
+        materials: scene.materials.clone(),
+        figure: scene.figure.clone(),
+        ..Scene::default()
+    };
+    pose::paint(expressions, &mut painted)?;
+    Ok(painted.materials)
 }
 
 /// Whether a file is opened as a motion for the figure of a scene: a VRM animation always, a glTF file where the figure

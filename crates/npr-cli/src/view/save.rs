@@ -1,25 +1,27 @@
 //! What is taken away from a studio, as files.
 
-use super::order::order_arguments;
+use super::order::{film_arguments, order_arguments};
+use crate::animate;
 use crate::arguments::{LineArguments, LineFormat, LinesArguments, SheetArguments, ViewArguments};
 use crate::fault::{Exit, Fault};
 use crate::lines;
 use crate::look::Look;
 use crate::output::{Output, folder_of};
+use crate::progress::Progress;
 use crate::render;
 use crate::style_source::StyleSource;
-use npr_view::{Order, Sheet, Take};
+use npr_view::{Film, Order, Sheet, Take};
 use std::path::{Path, PathBuf};
 
 /// Most numbers that are tried for a name that is still free.
 const NAMES_MAX: u32 = 10_000;
 
 /// Writes a style as a file named after the scene, and gives its path. One that extends a file lies beside it, so that
-/// its parent is found; any other in the current folder.
-pub fn style(scene: &Path, sheet: &Sheet) -> Result<PathBuf, Fault> {
+/// its parent is found; any other in a folder.
+pub fn style(folder: &Path, scene: &Path, sheet: &Sheet) -> Result<PathBuf, Fault> {
     let source = StyleSource::of(Some(sheet.name()));
-    let folder = source.file().map_or(Path::new("."), folder_of);
-    let path = free_path(folder, scene, "toml")?;
+    let folder = source.file().map_or(folder, folder_of);
+    let path = free_path(folder, scene, ".toml")?;
     let text = match source.file().and_then(Path::file_name) {
         Some(name) => sheet.file_over(&name.to_string_lossy()),
         None => sheet.file(),
@@ -28,14 +30,14 @@ pub fn style(scene: &Path, sheet: &Sheet) -> Result<PathBuf, Fault> {
     Ok(path)
 }
 
-/// Draws the picture of an order into a file in the current folder, as the command does, and gives its path.
+/// Draws the picture of an order into a file in a folder, as the command does, and gives its path.
 pub fn picture(
     args: &ViewArguments,
-    scene: &Path,
+    (folder, scene): (&Path, &Path),
     (take, order): (Take, &Order),
 ) -> Result<PathBuf, Fault> {
-    let ending = if take == Take::Svg { "svg" } else { "png" };
-    let path = free_path(Path::new("."), scene, ending)?;
+    let ending = if take == Take::Svg { ".svg" } else { ".png" };
+    let path = free_path(folder, scene, ending)?;
     let mut args = order_arguments(args, scene, order);
     args.output = Some(path.clone());
     if take == Take::Png {
@@ -61,18 +63,34 @@ pub fn picture(
     Ok(path)
 }
 
-/// A path in a folder that is still free, named after a scene.
+/// Draws a film into files in a folder, as `npr animate` does, and gives their path.
+pub fn film(
+    args: &ViewArguments,
+    (folder, scene): (&Path, &Path),
+    (film, order): (&Film, &Order),
+    progress: &mut Progress,
+) -> Result<PathBuf, Fault> {
+    let path = free_path(folder, scene, film.form.ending())?;
+    let args = film_arguments(args, scene, (film, order), &path);
+    animate::draw(&args, progress)?;
+    Ok(path)
+}
+
+/// A path in a folder that is still free, named after a scene; of numbered files the first is.
 fn free_path(folder: &Path, scene: &Path, ending: &str) -> Result<PathBuf, Fault> {
     let stem = scene.file_stem().unwrap_or_default().to_string_lossy();
     let named = (0..NAMES_MAX).map(|number| match number {
-        0 => format!("{stem}.{ending}"),
-        _ => format!("{stem}-{number}.{ending}"),
+        0 => format!("{stem}{ending}"),
+        _ => format!("{stem}-{number}{ending}"),
     });
     let mut paths = named.map(|name| match folder == Path::new(".") {
         true => PathBuf::from(name),
         false => folder.join(name),
     });
     paths
-        .find(|path| !path.exists())
-        .ok_or_else(|| Fault::new(Exit::Failed, format!("no name is free for {stem}.{ending}")))
+        .find(|path| {
+            let first = path.to_string_lossy().replace("####", "0000");
+            !Path::new(&first).exists()
+        })
+        .ok_or_else(|| Fault::new(Exit::Failed, format!("no name is free for {stem}{ending}")))
 }

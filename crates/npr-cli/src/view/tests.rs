@@ -10,6 +10,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
+mod films;
 mod moments;
 
 /// A box on a plate.
@@ -42,7 +43,7 @@ impl Shop {
         let Command::View(said) = parsed.command else {
             panic!("another command");
         };
-        let desk = Desk::new(&said.0, Box::new(|| {})).expect("a desk");
+        let desk = Desk::beside(folder.path(), &said.0, Box::new(|| {})).expect("a desk");
         Self { folder, desk }
     }
 
@@ -219,14 +220,30 @@ fn files_that_change_are_read_anew() {
     assert!(shop.picture(&of_file).rgba == second.rgba);
     write(&file, "extends = \"ink\"\nline.color = \"#f00\"\n");
     shop.wait(|news| (news == News::StyleChanged).then_some(()));
-    assert!(
-        shop.picture(&Order {
-            change: 4,
-            ..of_file
-        })
-        .rgba
-            != second.rgba
-    );
+    let third = shop.picture(&Order {
+        change: 4,
+        ..of_file.clone()
+    });
+    assert!(third.rgba != second.rgba);
+
+    // Change the parent of the style's parent.
+    write(&shop.path("base.toml"), "extends = \"ink\"\n");
+    write(&shop.path("middle.toml"), "extends = \"base.toml\"\n");
+    write(&file, "extends = \"middle.toml\"\n");
+    shop.wait(|news| (news == News::StyleChanged).then_some(()));
+    let fourth = shop.picture(&Order {
+        change: 5,
+        ..of_file.clone()
+    });
+    assert!(fourth.rgba == second.rgba);
+    let base = shop.path("base.toml");
+    write(&base, "extends = \"ink\"\nline.color = \"#f00\"\n");
+    shop.wait(|news| (news == News::StyleChanged).then_some(()));
+    let fifth = shop.picture(&Order {
+        change: 6,
+        ..of_file
+    });
+    assert!(fifth.rgba == third.rgba);
 }
 
 #[test]

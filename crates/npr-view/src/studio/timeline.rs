@@ -24,7 +24,7 @@ const WIDE: f32 = 520.0;
 /// The clock of what plays.
 pub(super) struct Timeline {
     /// What of the scene can move.
-    cast: Cast,
+    pub cast: Cast,
     /// Frames a second.
     fps: f32,
     /// Whether what has ended begins again.
@@ -50,8 +50,18 @@ impl Timeline {
         self.began.is_some()
     }
 
+    /// Stops at the frame that is shown.
+    pub fn pause(&mut self) {
+        self.began = None;
+    }
+
+    /// Frames a second.
+    pub fn fps(&self) -> f32 {
+        self.fps
+    }
+
     /// Whether there is anything that could play.
-    fn has_time(&self) -> bool {
+    pub fn has_time(&self) -> bool {
         !self.cast.clips.is_empty() || self.cast.flows
     }
 
@@ -178,7 +188,7 @@ impl Studio {
     }
 
     /// Leaves the camera where it is, where it would follow what moves only to frame it.
-    fn hold_camera(&mut self) {
+    pub(super) fn hold_camera(&mut self) {
         if self.viewpoint.is_none() && !self.timeline.cast.has_own_camera {
             self.viewpoint = self.picture().map(|picture| picture.viewpoint);
         }

@@ -1,7 +1,7 @@
 //! Time in the window: what plays, which moment is drawn, and what is said of it.
 
 use super::*;
-use npr_view::{Cast, Clip, Pose};
+use npr_view::{Cast, Clip, FilmForm, LookAt, Pose};
 
 /// What of a scene can move: two clips.
 fn cast() -> Cast {
@@ -209,4 +209,114 @@ fn a_small_window_has_a_small_bar() {
         assert_eq!(harness.query_by_label("Clip").is_some(), width > 800.0);
         assert!(harness.query_by_label("Play").is_some());
     }
+}
+
+#[test]
+fn expressions_and_looks_are_said_and_undone() {
+    let figure = Cast {
+        expressions: vec!["happy".to_owned(), "Big grin".to_owned()],
+        can_look: true,
+        ..Cast::default()
+    };
+    let (mut harness, easel) = stage([1000.0, 700.0], Pose::default(), figure);
+    harness.state_mut().search("expression");
+    harness.run_steps(12);
+
+    // Drag a slider: that is one step.
+    let slider = harness.get_by_label("expression Big grin").rect();
+    let start = egui::pos2(slider.left() + 4.0, slider.center().y);
+    harness.drag_at(start);
+    harness.run_steps(2);
+    for step in 1..5 {
+        harness.hover_at(start + vec2(10.0 * step as f32, 0.0));
+        harness.run_steps(1);
+    }
+    harness.drop_at(start + vec2(40.0, 0.0));
+    harness.run_steps(8);
+    let grin = last(&easel).pose.face.share("Big grin").unwrap();
+    assert!((0.2..0.8).contains(&grin), "{grin} {slider:?}");
+    assert!(!last(&easel).is_draft);
+
+    // Look at the camera.
+    harness.get_by_label("Eyes look").click();
+    harness.run_steps(3);
+    harness.get_by_label("at the camera").click();
+    harness.run_steps(6);
+    assert_eq!(last(&easel).pose.face.look_at, Some(LookAt::Camera));
+    let said = easel.command(&last(&easel));
+    let expected = format!("--expression=Big grin={grin} --look-at=camera");
+    assert!(said.ends_with(&expected), "{said}");
+
+    // Take both back, one after the other, and forth.
+    let faces = [(Some(grin), None), (None, None)];
+    for (grin, look_at) in faces {
+        harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+        harness.run_steps(4);
+        let face = last(&easel).pose.face;
+        assert_eq!((face.share("Big grin"), face.look_at), (grin, look_at));
+    }
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::Y);
+    harness.run_steps(4);
+    assert_eq!(last(&easel).pose.face.share("Big grin"), Some(grin));
+    harness.get_by_label("reset expression Big grin").click();
+    harness.run_steps(4);
+    assert_eq!(last(&easel).pose.face.share("Big grin"), None);
+
+    // Another scene has another figure.
+    easel.0.borrow_mut().news = vec![opened("b.vrm", Cast::default())];
+    harness.run_steps(3);
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    harness.run_steps(3);
+    assert_eq!(last(&easel).pose, Pose::default());
+}
+
+#[test]
+fn films_are_taken_of_what_plays_and_of_a_turn() {
+    let (mut harness, easel) = stage([1000.0, 700.0], Pose::default(), cast());
+    harness.key_press(Key::ArrowRight);
+    harness.run_steps(4);
+    harness.get_by_label("Film").click();
+    harness.run_steps(3);
+    harness.get_by_label("GIF").click();
+    harness.run_steps(3);
+    let (film, order) = easel.0.borrow().films[0].clone();
+    assert_eq!(
+        (film.form, film.plays, film.turns),
+        (FilmForm::Gif, true, false)
+    );
+    assert_eq!(
+        (order.pose.clip.as_deref(), order.pose.time_s),
+        (Some("Walk"), None)
+    );
+    assert_eq!(order.viewpoint, Some(FRONT));
+
+    // It tells how far it is, and can be ended.
+    easel.0.borrow_mut().news = vec![News::Film(Some([3, 48]))];
+    harness.run_steps(2);
+    let told = harness.query_by_label("frame 3 of 48 of the film is drawn");
+    assert!(told.is_some());
+    harness.get_by_label("Cancel").click();
+    harness.run_steps(2);
+    assert_eq!(easel.0.borrow().cancelled, 1);
+    easel.0.borrow_mut().news = vec![News::Film(None)];
+    harness.run_steps(2);
+    assert!(harness.query_by_label("Cancel").is_none());
+
+    // A turn around the moment that is shown.
+    harness.get_by_label("Film").click();
+    harness.run_steps(3);
+    harness.get_by_label("what plays").click();
+    harness.run_steps(2);
+    assert_eq!(harness.state().film(FilmForm::Apng), None);
+    harness.get_by_label("the camera turns once").click();
+    harness.run_steps(2);
+    harness.get_by_label("PNG frames").click();
+    harness.run_steps(3);
+    let (film, order) = easel.0.borrow().films[1].clone();
+    assert_eq!(
+        (film.form, film.plays, film.turns),
+        (FilmForm::Frames, false, true)
+    );
+    assert_eq!(order.pose.time_s, Some(1.0 / 24.0));
+    assert_eq!(film.options(), ["--fps=24", "--turntable"]);
 }

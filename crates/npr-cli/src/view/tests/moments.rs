@@ -3,7 +3,7 @@
 use super::*;
 use npr_scene::Eyes;
 use npr_scene::testing::{Vrm, avatar, gesture, puppet, wing};
-use npr_view::{Cast, LookAt};
+use npr_view::{Cast, Face, LookAt};
 
 /// A pose by clip and time.
 fn at(clip: &str, time_s: f32) -> Pose {
@@ -97,7 +97,10 @@ fn a_figure_swings_looks_and_shows_expressions_as_the_command_has_it() {
             ..at(&clip, time_s)
         };
         let looking = |time_s, look_at| Pose {
-            look_at: Some(look_at),
+            face: Face {
+                look_at: Some(look_at),
+                ..Face::default()
+            },
             ..moved(time_s)
         };
         let near = Viewpoint {
@@ -133,13 +136,8 @@ fn a_motion_that_is_dropped_is_played_by_the_figure() {
     ];
     let files = files.each_ref().map(|(name, bytes)| (*name, &bytes[..]));
     let mut shop = Shop::of(&files, "--backend cpu");
-    assert_eq!(
-        shop.cast(),
-        Cast {
-            clips: Vec::new(),
-            ..Cast::default()
-        }
-    );
+    let cast = shop.cast();
+    assert!(cast.clips.is_empty() && cast.expressions.contains(&"happy".to_owned()));
     let rest = shop.checked(("ink", &[]), &Pose::default(), None);
     for name in ["wave.vrma", "wave.glb"] {
         let file = shop.path(name).to_string_lossy().into_owned();
@@ -181,4 +179,38 @@ fn a_window_starts_at_the_moment_that_is_asked_for() {
         words,
         "--style ink --size 120x90 --clip=1 --time=0.5 --backend=cpu"
     );
+}
+
+#[test]
+fn expressions_are_shown_as_the_command_has_them() {
+    let mut shop = Shop::of(&[("one.vrm", &avatar(Vrm::One))], "--backend cpu");
+    let cast = shop.cast();
+    let smiling = |shares: &[(&str, f32)]| {
+        let mut face = Face::default();
+        for (name, share) in shares {
+            face.set_share(name, Some(*share));
+        }
+        Pose {
+            face,
+            ..Pose::default()
+        }
+    };
+    let near = Viewpoint {
+        eye: [0.2, 1.5, 1.2],
+        target: [0.0, 1.4, 0.0],
+        ..aside(false)
+    };
+    let style = ("toon", &[][..]);
+    let rest = shop.checked(style, &Pose::default(), Some(near));
+    let mut is_seen = false;
+    for name in &cast.expressions {
+        for share in [1.0, 0.4] {
+            let shown = shop.checked(style, &smiling(&[(name, share)]), Some(near));
+            is_seen |= shown != rest;
+        }
+    }
+    assert!(is_seen, "{cast:?}");
+    let both = smiling(&[("happy", 0.5), ("blink", 0.0), ("happy", 0.25)]);
+    shop.checked(style, &both, Some(near));
+    assert!(shop.checked(style, &Pose::default(), Some(near)) == rest);
 }
