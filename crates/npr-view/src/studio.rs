@@ -360,7 +360,7 @@ impl Studio {
         ui.add_space(6.0);
         self.show_presets(ui);
         ui.add_space(2.0);
-        ui.horizontal(|ui| {
+        ui.horizontal_wrapped(|ui| {
             let button =
                 |ui: &mut Ui, text: &str, hint: &str| ui.button(text).on_hover_text(hint).clicked();
             if button(
@@ -383,6 +383,7 @@ impl Studio {
             ) {
                 self.copy_command(ui);
             }
+            self.show_films(ui);
         });
         ui.add_space(4.0);
         let search = egui::TextEdit::singleline(&mut self.panel.search)
@@ -407,7 +408,6 @@ impl Studio {
             guides.on_hover_text(
                 "a click on the model adds a guide point, where lines thin out; one on its dot takes it away",
             );
-            self.show_films(ui);
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 for (text, is_open) in [("Fold all", false), ("Unfold all", true)] {
                     if ui.add(small(text)).clicked() {
