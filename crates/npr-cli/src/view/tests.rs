@@ -10,6 +10,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
+mod endurance;
 mod films;
 mod moments;
 
