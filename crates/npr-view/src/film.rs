@@ -57,3 +57,14 @@ impl Film {
         words
     }
 }
+
+/// The film that the user has in mind, and the one that is drawn.
+#[derive(Debug, Default)]
+pub(crate) struct Filming {
+    /// Whether the scene stands still though something could play.
+    pub is_held: bool,
+    /// Whether the camera turns.
+    pub turns: bool,
+    /// How many frames are drawn, and of how many, while a film is drawn.
+    pub done: Option<[usize; 2]>,
+}

@@ -11,6 +11,7 @@ use egui::{Key, KeyboardShortcut, Modifiers, RichText, TextureHandle, Ui};
 use npr_core::standard_view::StandardView;
 use npr_stylesheet::{StyleError, presets};
 
+use crate::film::Filming;
 use crate::history::History;
 use crate::host::{Host, News, Order, Picture, Take};
 use crate::pace::Pace;
@@ -19,7 +20,6 @@ use crate::pose::Pose;
 use crate::sheet::Sheet;
 use crate::viewpoint::Viewpoint;
 use crate::why::Asked;
-use filming::Filming;
 use timeline::Timeline;
 
 /// Seconds without a change after which the picture is drawn in full.

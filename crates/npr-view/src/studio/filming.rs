@@ -14,17 +14,6 @@ const FORMS: [(FilmForm, &str); 3] = [
     (FilmForm::Frames, "PNG frames"),
 ];
 
-/// The film that the user has in mind, and the one that is drawn.
-#[derive(Debug, Default)]
-pub(super) struct Filming {
-    /// Whether the scene stands still though something could play.
-    is_held: bool,
-    /// Whether the camera turns.
-    turns: bool,
-    /// How many frames are drawn, and of how many, while a film is drawn.
-    pub done: Option<[usize; 2]>,
-}
-
 impl Studio {
     /// The film of what is shown, in a form; none where nothing moves in it.
     pub fn film(&self, form: FilmForm) -> Option<Film> {

@@ -31,7 +31,8 @@ pub(crate) fn calmed(
         smooth(&mut found, lens);
         let facing = held.as_mut().map(|held| (JoiningStep::Facing, held));
         found = merge_held(cut_overshoot(suppress(found)), FACING_PX, facing);
-        found = bridge_gaps(found, held.as_mut());
+        // Short pieces that were joined to a line can stand out beyond the corner that they belong to.
+        found = cut_overshoot(bridge_gaps(found, held.as_mut()));
         smooth(&mut found, lens);
         found = leave_out_short_fragments(found);
     }
