@@ -8,7 +8,7 @@ use crate::sheet::Sheet;
 /// What is at a place of a picture.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Answer {
-    /// [`Order::change`] of the picture that was asked about.
+    /// [`Order::change`](crate::Order::change) of the picture that was asked about.
     pub change: u64,
     /// The nearest line within reach.
     pub line: Option<ToldLine>,

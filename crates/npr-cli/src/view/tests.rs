@@ -170,6 +170,36 @@ fn the_picture_is_what_the_command_and_the_saved_style_draw() {
 }
 
 #[test]
+fn a_camera_turns_round_smoke() {
+    let ball = npr_vdb::testing::Sample::ball(4).bytes();
+    let mut shop = Shop::of(&[("ball.vdb", &ball)], "--backend cpu");
+    let toon = |viewpoint| Order {
+        style: "toon".to_owned(),
+        ..order(&[], viewpoint)
+    };
+    let front = shop.picture(&toon(None)).viewpoint;
+    let [x, y, z] = [0, 1, 2].map(|i| front.eye[i] - front.target[i]);
+    let beside = [z, y, -x];
+    let aside = Viewpoint {
+        eye: [0, 1, 2].map(|i| front.target[i] + beside[i]),
+        ..front
+    };
+    let pictures = [front, aside].map(|viewpoint| {
+        let order = toon(Some(viewpoint));
+        let picture = shop.picture(&order);
+        let png = encoder::png(order.size, &picture.rgba, false).expect("a file");
+        let words = shop.desk.words(&order);
+        assert!(shop.drawn(&words) == png, "{}", words.join(" "));
+        let mut tones: Vec<&[u8]> = picture.rgba.chunks_exact(4).collect();
+        tones.sort_unstable();
+        tones.dedup();
+        assert!(tones.len() > 2, "{} tones", tones.len());
+        png
+    });
+    assert!(pictures[0] != pictures[1]);
+}
+
+#[test]
 fn faults_are_told_and_the_picture_before_can_be_drawn_again() {
     let mut shop = Shop::new("--backend cpu");
     let good = order(&[], None);
