@@ -35,9 +35,9 @@ const STEPS: [Step; 19] = [
     ("docs", |root| {
         run_cargo(root, &DOCS, &[("RUSTDOCFLAGS", "-D warnings")])
     }),
-    ("examples", examples::run),
     ("tests", |root| suite::run(root, &[])),
     ("properties", suite::again),
+    ("examples", examples::run),
 ];
 
 /// Lints of everything that compiles.

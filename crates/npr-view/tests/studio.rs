@@ -159,26 +159,30 @@ fn unfold(harness: &mut Harness<'static, Studio>) {
     }
 }
 
+/// An entry for each list of a style that may be empty.
+const LISTS: [&str; 4] = [
+    r#"lettering=[{ text = "POW", font = "a.ttf" }]"#,
+    r#"id_map=[{ image = "a.png" }]"#,
+    r##"rule=[{ match = { material = "A" } }]"##,
+    r#"light.extra=[{}]"#,
+];
+
+/// Lists whose entries have controls then.
+const OPEN: [&str; 6] = [
+    "lettering",
+    "id_map",
+    "rule",
+    "light.extra",
+    "shade.ramp",
+    "smoke.ramp",
+];
+
 #[test]
 fn every_key_of_the_schema_has_a_control_with_its_name() {
-    let lists = [
-        r#"lettering=[{ text = "POW", font = "a.ttf" }]"#,
-        r#"id_map=[{ image = "a.png" }]"#,
-        r##"rule=[{ match = { material = "A" } }]"##,
-        r#"light.extra=[{}]"#,
-    ];
-    let (mut harness, _) = studio([1000.0, 24_000.0], &lists);
+    let (mut harness, _) = studio([1000.0, 24_000.0], &LISTS);
     unfold(&mut harness);
     let mut wanted = Vec::new();
-    let open = [
-        "lettering",
-        "id_map",
-        "rule",
-        "light.extra",
-        "shade.ramp",
-        "smoke.ramp",
-    ];
-    keys(&fields(), "", &open, &mut wanted);
+    keys(&fields(), "", &OPEN, &mut wanted);
     assert!(wanted.len() > 280, "{}", wanted.len());
     let missing: Vec<&String> = wanted
         .iter()

@@ -5,9 +5,9 @@ use npr_drawing::pressure::Curve;
 use npr_stylesheet::Field;
 use toml::Value;
 
-use super::naming::name_it;
 use super::stops::{
-    Done, HANDLE, bounds, handle, number_of, place_among, put_number, range_of, square,
+    Done, HANDLE, bounds, clicked_twice, handle, number_of, place_among, put_number, range_of,
+    square,
 };
 
 /// Size of the graph, in points.
@@ -51,14 +51,9 @@ pub(super) fn edit(
     paint(ui, graph, &curve, top);
 
     // Add a stop where the graph is clicked twice.
-    let id = ui.make_persistent_id((key, "graph"));
-    let response = ui.interact(graph, id, Sense::click());
-    name_it(&response, &format!("graph of {key}"));
-    let response = response.on_hover_text("double click to add a stop");
     let count = stops.len() as u64;
     let mut changed = None;
-    if let Some(pointer) = response.interact_pointer_pos()
-        && response.double_clicked()
+    if let Some(pointer) = clicked_twice(ui, (key, "graph"), graph)
         && count < most
     {
         let at = ((pointer.x - graph.left()) / width).clamp(0.0, 1.0);

@@ -6,9 +6,9 @@ use npr_core::color::srgb_from_linear;
 use npr_stylesheet::{Color, Field, HueStop, Stop, hue_row};
 use toml::Value;
 
-use super::naming::name_it;
 use super::stops::{
-    Done, HANDLE, StopForm, bounds, handle, number_of, place_among, put_number, square,
+    Done, HANDLE, StopForm, bounds, clicked_twice, handle, number_of, place_among, put_number,
+    square,
 };
 
 /// Height of the bar, in points.
@@ -37,14 +37,9 @@ pub(super) fn edit(
     row.paint(ui, bar);
 
     // Add a stop where the bar is clicked twice.
-    let id = ui.make_persistent_id((key, "bar"));
-    let response = ui.interact(bar, id, Sense::click());
-    name_it(&response, &format!("bar of {key}"));
-    let response = response.on_hover_text("double click to add a stop");
     let count = stops.len() as u64;
     let mut changed = None;
-    if let Some(pointer) = response.interact_pointer_pos()
-        && response.double_clicked()
+    if let Some(pointer) = clicked_twice(ui, (key, "bar"), bar)
         && count < most
     {
         let at = ((pointer.x - bar.left()) / width).clamp(0.0, 1.0);

@@ -1,6 +1,6 @@
 //! Stops of lists, taken by the hand: they are moved, added and removed.
 
-use egui::{Key, Rect, Response, Sense, Ui, Vec2, pos2, vec2};
+use egui::{Key, Pos2, Rect, Response, Sense, Ui, Vec2, pos2, vec2};
 use npr_stylesheet::{Field, Form};
 use toml::Value;
 
@@ -67,6 +67,16 @@ pub(super) enum Done {
     Moved(Vec2),
     /// It was taken out.
     Removed,
+}
+
+/// Where the bar or graph of a key's stops is clicked twice, which adds one.
+pub(super) fn clicked_twice(ui: &Ui, (key, what): (&str, &str), rect: Rect) -> Option<Pos2> {
+    let id = ui.make_persistent_id((key, what));
+    let response = ui.interact(rect, id, Sense::click());
+    name_it(&response, &format!("{what} of {key}"));
+    let response = response.on_hover_text("double click to add a stop");
+    let pointer = response.interact_pointer_pos();
+    pointer.filter(|_| response.double_clicked())
 }
 
 /// A handle in the middle of `rect`, which a share of the whole covers so many points of: drag it, move it by arrow

@@ -1,6 +1,6 @@
 //! The window without a mouse.
 
-use super::{Studio, keys, studio, unfold};
+use super::{LISTS, OPEN, Studio, keys, studio, unfold};
 use egui::{Key, Modifiers};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
@@ -18,21 +18,7 @@ fn focused(harness: &Harness<'static, Studio>) -> Option<(String, String)> {
 
 #[test]
 fn every_key_is_reached_by_tab_and_all_that_is_reached_has_a_name() {
-    let lists = [
-        r#"lettering=[{ text = "POW", font = "a.ttf" }]"#,
-        r#"id_map=[{ image = "a.png" }]"#,
-        r##"rule=[{ match = { material = "A" } }]"##,
-        r#"light.extra=[{}]"#,
-    ];
-    let open = [
-        "lettering",
-        "id_map",
-        "rule",
-        "light.extra",
-        "shade.ramp",
-        "smoke.ramp",
-    ];
-    let (mut harness, _) = studio([1000.0, 9000.0], &lists);
+    let (mut harness, _) = studio([1000.0, 9000.0], &LISTS);
     unfold(&mut harness);
     let mut reached = BTreeMap::new();
     for field in fields() {
@@ -54,7 +40,7 @@ fn every_key_is_reached_by_tab_and_all_that_is_reached_has_a_name() {
             }
         }
         let mut wanted = Vec::new();
-        keys(&[field], "", &open, &mut wanted);
+        keys(&[field], "", &OPEN, &mut wanted);
         wanted.retain(|key| !of_table.values().any(|name| name == key));
         assert!(wanted.is_empty(), "not reached: {wanted:?}");
         reached.extend(of_table);
