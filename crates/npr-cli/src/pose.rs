@@ -280,11 +280,9 @@ pub fn pose(
     style: &Style,
     limits: &Limits,
 ) -> Result<Posed, Fault> {
-    let clip = clip_of(args, scene)?;
-    let rests = clip.is_none().then_some(scene.clips.len());
     let mut posed = Posed::of(args, scene, style, limits)?;
-    if let Some(clip_count) = rests {
-        let why = why_at_rest(args, clip_count, posed.is_posed);
+    if posed.stance.clip.is_none() {
+        let why = why_at_rest(args, scene.clips.len(), posed.is_posed);
         let why = why.filter(|_| !flows || args.time.is_none());
         let place = posed.stance.warnings.len();
         posed.warnings.splice(place..place, why);

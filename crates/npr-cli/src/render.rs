@@ -281,8 +281,13 @@ pub fn prepare(
 
 /// Whether pictures on surfaces of a scene move in time, in a style that lets them.
 pub fn moves_pictures(style: &Style, scene: &Scene) -> bool {
+    style.use_scene_hints.uses(SceneHint::Shade) && has_moving_pictures(scene)
+}
+
+/// Whether pictures on surfaces of a scene move in time where a style lets them.
+pub fn has_moving_pictures(scene: &Scene) -> bool {
     let mut toons = scene.materials.iter().flat_map(|material| &material.toon);
-    style.use_scene_hints.uses(SceneHint::Shade) && toons.any(|toon| !toon.flow.is_still())
+    toons.any(|toon| !toon.flow.is_still())
 }
 
 /// Warns about stated keys of the style that have no effect in pictures of a scene.

@@ -4,6 +4,7 @@ use crate::arguments::ExpressionShare;
 use crate::ending::has_ending;
 use crate::fault::Fault;
 use crate::pose;
+use crate::render::has_moving_pictures;
 use crate::source::{Loaded, Source};
 use npr_scene::{Figure, Limits, Material, Scene};
 use npr_view::{Cast, Clip};
@@ -25,10 +26,9 @@ pub fn cast_of(scene: &Scene, motion: Option<&Path>, has_own_camera: bool) -> Ca
         }
     });
     let faces = scene.figure.iter().flat_map(|figure| &figure.expressions);
-    let toons = scene.materials.iter().flat_map(|material| &material.toon);
     Cast {
         clips: clips.collect(),
-        flows: toons.into_iter().any(|toon| !toon.flow.is_still()),
+        flows: has_moving_pictures(scene),
         expressions: faces.map(|face| face.name.clone()).collect(),
         can_look: scene.figure.as_ref().is_some_and(Figure::can_look),
         motion: motion.map(|path| path.to_string_lossy().into_owned()),

@@ -7,8 +7,8 @@ use npr_stylesheet::{Color, Field, HueStop, Stop, hue_row};
 use toml::Value;
 
 use super::stops::{
-    Done, HANDLE, StopForm, bounds, clicked_twice, handle, number_of, place_among, put_number,
-    square,
+    Done, HANDLE, StopForm, bounds, clicked_twice, handle, number_of, place_among, put_color,
+    put_number, square,
 };
 
 /// Height of the bar, in points.
@@ -84,10 +84,8 @@ pub(super) fn edit(
         });
         if let Some(color) = picked.and_then(|shown| shown.inner) {
             let stops = changed.get_or_insert_with(|| stops.to_vec());
-            if let Some(table) = stops.get_mut(i).and_then(Value::as_table_mut) {
-                let [r, g, b, a] = color.to_srgba_unmultiplied();
-                let text = Color { r, g, b, a }.to_string();
-                table.insert(key.to_owned(), Value::String(text));
+            if let Some(stop) = stops.get_mut(i) {
+                put_color(stop, key, color);
             }
         }
     }
@@ -106,13 +104,8 @@ fn with_stop(
     let first = || npr_stylesheet::Form::Table(fields.to_vec()).first();
     let mut stop = near.cloned().unwrap_or_else(first);
     put_number(&mut stop, "at", at);
-    if form == StopForm::Color
-        && !stops.is_empty()
-        && let Some(table) = stop.as_table_mut()
-    {
-        let [r, g, b, a] = row.at(at).to_srgba_unmultiplied();
-        let text = Color { r, g, b, a }.to_string();
-        table.insert("color".to_owned(), Value::String(text));
+    if form == StopForm::Color && !stops.is_empty() {
+        put_color(&mut stop, "color", row.at(at));
     }
     let mut all = stops.to_vec();
     all.insert(place, stop);

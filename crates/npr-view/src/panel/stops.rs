@@ -1,7 +1,7 @@
 //! Stops of lists, taken by the hand: they are moved, added and removed.
 
-use egui::{Key, Pos2, Rect, Response, Sense, Ui, Vec2, pos2, vec2};
-use npr_stylesheet::{Field, Form};
+use egui::{Color32, Key, Pos2, Rect, Response, Sense, Ui, Vec2, pos2, vec2};
+use npr_stylesheet::{Color, Field, Form};
 use toml::Value;
 
 use super::naming::{arrows, name_it};
@@ -57,6 +57,15 @@ pub(super) fn put_number(stop: &mut Value, name: &str, number: f32) {
     let short = (number * 1000.0).round() / 1000.0;
     if let Some(table) = stop.as_table_mut() {
         table.insert(name.to_owned(), Value::Float(f64::from(short)));
+    }
+}
+
+/// Gives a stop a colour.
+pub(super) fn put_color(stop: &mut Value, name: &str, color: Color32) {
+    let [r, g, b, a] = color.to_srgba_unmultiplied();
+    if let Some(table) = stop.as_table_mut() {
+        let text = Color { r, g, b, a }.to_string();
+        table.insert(name.to_owned(), Value::String(text));
     }
 }
 

@@ -156,10 +156,6 @@ impl Studio {
             self.timeline.began = None;
             return self.changed(ui);
         }
-        if self.pose.clip.is_none() {
-            let first = self.timeline.cast.clips.first();
-            self.pose.clip = first.map(|clip| clip.name.clone());
-        }
         let count = self.timeline.frame_count(self.pose.clip.as_deref());
         let frame = self.frame();
         let is_over = !self.timeline.loops && frame + 1 >= count;

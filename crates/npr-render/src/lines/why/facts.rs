@@ -11,7 +11,7 @@ use npr_core::geometry::Part;
 use npr_core::line_kind::Kind;
 use npr_core::math;
 use npr_core::outline::Outline;
-use npr_stylesheet::{BackgroundMethod, Decided, PartNames, Style};
+use npr_stylesheet::{BackgroundMethod, Color, Decided, PartNames, Style};
 use npr_vector::project::Projector;
 use npr_vector::stroke::{Stroke, StrokePoint};
 
@@ -61,6 +61,13 @@ impl Facts<'_> {
     fn names(&self) -> PartNames<'_> {
         let info = self.model.parts.get(self.stroke.surface as usize);
         info.map_or_else(PartNames::default, |info| info.names())
+    }
+
+    /// The edge that it runs along; `None` where it lies across a face or on no shape.
+    fn edge(&self) -> Option<u32> {
+        let location = self.point.location;
+        let is_edge = !location.is_nowhere() && location.crossed_face().is_none();
+        is_edge.then_some(location.edge)
     }
 
     fn decided(&self, key: &str) -> Decided {
@@ -154,12 +161,10 @@ impl Facts<'_> {
     /// The other kinds that its edge has: as those the line stays where its own kind is not drawn.
     fn stays_as(&self) -> Option<Fact> {
         // Gather the kinds of the edge.
-        let (shape, location) = (&self.model.shape, self.point.location);
-        let is_edge = !location.is_nowhere() && location.crossed_face().is_none();
-        let edge = location.edge;
-        if !is_edge || shape.polyline_of(edge).is_some() {
-            return None;
-        }
+        let shape = &self.model.shape;
+        let edge = self
+            .edge()
+            .filter(|edge| shape.polyline_of(*edge).is_none())?;
         let traits = shape.edge_traits[edge as usize];
         let is_of = |kind: Kind| match kind {
             Kind::Crease => self.fold(edge).is_some(),
@@ -236,9 +241,9 @@ impl Facts<'_> {
     }
 
     fn is_of_card(&self) -> bool {
-        let (shape, location) = (&self.model.shape, self.point.location);
-        let is_line = !location.is_nowhere() && location.crossed_face().is_none();
-        is_line && shape.cards.point(shape.ends(location.edge)[0]).is_some()
+        let shape = &self.model.shape;
+        let of_card = |edge| shape.cards.point(shape.ends(edge)[0]).is_some();
+        self.edge().is_some_and(of_card)
     }
 
     /// Width in pixels of a line at factor 1.
@@ -297,10 +302,7 @@ impl Facts<'_> {
     fn colors(&self) -> Vec<Fact> {
         // Name what gives the colour itself.
         let [r, g, b, a] = self.color;
-        let text = match a {
-            255 => format!("#{r:02x}{g:02x}{b:02x}"),
-            _ => format!("#{r:02x}{g:02x}{b:02x}{a:02x}"),
-        };
+        let text = Color { r, g, b, a }.to_string();
         let Some(info) = self.model.parts.get(self.stroke.surface as usize) else {
             return vec![plain("Colour", text)];
         };
