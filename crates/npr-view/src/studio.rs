@@ -28,6 +28,9 @@ const STILL_S: f64 = 0.2;
 /// Width of the panel in points.
 const PANEL_WIDTH: f32 = 330.0;
 
+/// What the list of presets leaves of its row, in points: room for the button that saves the style.
+const SAVE_WIDTH: f32 = 96.0;
+
 /// A style and a camera that are being worked on, with the picture that they give.
 pub struct Studio {
     host: Box<dyn Host>,
@@ -360,22 +363,16 @@ impl Studio {
         ui.add_space(6.0);
         self.show_presets(ui);
         ui.add_space(2.0);
-        ui.horizontal_wrapped(|ui| {
+        ui.horizontal(|ui| {
             let button =
                 |ui: &mut Ui, text: &str, hint: &str| ui.button(text).on_hover_text(hint).clicked();
-            if button(
-                ui,
-                "Save style",
-                "Ctrl+S: a style file with what is changed",
-            ) {
-                self.save(Take::Style);
-            }
             if button(ui, "PNG", "the picture as it is, as a file") {
                 self.save(Take::Png);
             }
             if button(ui, "SVG", "the lines of the picture, as a file") {
                 self.save(Take::Svg);
             }
+            self.show_films(ui);
             if button(
                 ui,
                 "Copy command",
@@ -383,7 +380,6 @@ impl Studio {
             ) {
                 self.copy_command(ui);
             }
-            self.show_films(ui);
         });
         ui.add_space(4.0);
         let search = egui::TextEdit::singleline(&mut self.panel.search)
@@ -432,13 +428,13 @@ impl Studio {
         }
     }
 
-    /// Shows the presets as a list.
+    /// Shows the presets as a list, and a button that saves the style.
     fn show_presets(&mut self, ui: &mut Ui) {
         let mut chosen = None;
         ui.horizontal(|ui| {
             ui.label(RichText::new("Style").strong().size(15.0));
             let shown = egui::ComboBox::from_id_salt("presets")
-                .width(ui.available_width() - 8.0)
+                .width(ui.available_width() - SAVE_WIDTH)
                 .height(420.0)
                 .selected_text(self.sheet.name())
                 .show_ui(ui, |ui| {
@@ -455,6 +451,13 @@ impl Studio {
                 .position(|preset| preset.name == self.sheet.name());
             let there = stepped(&shown.response, place.unwrap_or(0), presets().len());
             chosen = chosen.or(there.map(|there| presets()[there].name));
+            let save = ui.button("Save style");
+            if save
+                .on_hover_text("Ctrl+S: a style file with what is changed")
+                .clicked()
+            {
+                self.save(Take::Style);
+            }
         });
         if let Some(name) = chosen {
             self.take_style(name, ui);
