@@ -33,8 +33,12 @@ impl StopForm {
             ("light", Self::Tone),
             ("factor", Self::Factor),
         ];
+        // Words have a place and a colour, too: theirs is no number.
+        let is_place =
+            |field: &Field| field.name == "at" && matches!(field.form, Form::Number { .. });
         let found = forms.into_iter().find(|(name, _)| has(name));
-        found.map(|(_, form)| form).filter(|_| has("at"))
+        let found = found.map(|(_, form)| form);
+        found.filter(|_| fields.iter().any(is_place))
     }
 }
 
@@ -140,4 +144,42 @@ pub(super) fn place_among(stops: &[Value], at: f32) -> usize {
 /// The square of a handle around a point.
 pub(super) fn square(x: f32, y: f32) -> Rect {
     Rect::from_center_size(pos2(x, y), Vec2::splat(HANDLE))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use npr_stylesheet::fields;
+    use std::collections::BTreeMap;
+
+    /// Notes the form of stops of every list in some fields, by its key.
+    fn note(fields: &[Field], path: &str, found: &mut BTreeMap<String, StopForm>) {
+        for field in fields {
+            let key = format!("{path}{}", field.name);
+            match &field.form {
+                Form::Table(inner) => note(inner, &format!("{key}."), found),
+                Form::List { entry, .. } => {
+                    if let Form::Table(inner) = &**entry {
+                        found.extend(StopForm::of(inner).map(|form| (key.clone(), form)));
+                        note(inner, &format!("{key}."), found);
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+
+    #[test]
+    fn ramps_and_curves_have_stops_and_nothing_else_has() {
+        let mut found = BTreeMap::new();
+        note(&fields(), "", &mut found);
+        assert_eq!(found.get("shade.ramp"), Some(&StopForm::Tone));
+        let is_row = |key: &String| {
+            let name = key.rsplit('.').next().unwrap_or_default();
+            ["ramp", "pressure", "curve"].contains(&name)
+        };
+        let others: Vec<&String> = found.keys().filter(|key| !is_row(key)).collect();
+        assert!(others.is_empty(), "{others:?}");
+        assert!(found.len() > 5, "{found:?}");
+    }
 }
