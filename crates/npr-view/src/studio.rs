@@ -7,7 +7,7 @@ mod guides;
 mod timeline;
 mod why;
 
-use egui::{Key, KeyboardShortcut, Modifiers, RichText, TextureHandle, Ui};
+use egui::{Align, Key, KeyboardShortcut, Layout, Modifiers, RichText, TextureHandle, Ui};
 use npr_core::standard_view::StandardView;
 use npr_stylesheet::{StyleError, presets};
 
@@ -27,9 +27,6 @@ const STILL_S: f64 = 0.2;
 
 /// Width of the panel in points.
 const PANEL_WIDTH: f32 = 330.0;
-
-/// What the list of presets leaves of its row, in points: room for the button that saves the style.
-const SAVE_WIDTH: f32 = 96.0;
 
 /// A style and a camera that are being worked on, with the picture that they give.
 pub struct Studio {
@@ -404,7 +401,7 @@ impl Studio {
             guides.on_hover_text(
                 "a click on the model adds a guide point, where lines thin out; one on its dot takes it away",
             );
-            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 for (text, is_open) in [("Fold all", false), ("Unfold all", true)] {
                     if ui.add(small(text)).clicked() {
                         self.panel.fold(is_open);
@@ -433,31 +430,36 @@ impl Studio {
         let mut chosen = None;
         ui.horizontal(|ui| {
             ui.label(RichText::new("Style").strong().size(15.0));
-            let shown = egui::ComboBox::from_id_salt("presets")
-                .width(ui.available_width() - SAVE_WIDTH)
-                .height(420.0)
-                .selected_text(self.sheet.name())
-                .show_ui(ui, |ui| {
-                    for preset in presets() {
-                        let is_own = preset.name == self.sheet.name();
-                        if ui.selectable_label(is_own, preset.name).clicked() && !is_own {
-                            chosen = Some(preset.name);
+            let from_right = Layout::right_to_left(Align::Center);
+            ui.with_layout(from_right, |ui| {
+                let save = ui.button("Save style");
+                if save
+                    .on_hover_text("Ctrl+S: a style file with what is changed")
+                    .clicked()
+                {
+                    self.save(Take::Style);
+                }
+                // The list takes what is left, however long the name: a row that is too wide widens the panel.
+                let shown = egui::ComboBox::from_id_salt("presets")
+                    .width(ui.available_width())
+                    .height(420.0)
+                    .truncate()
+                    .selected_text(self.sheet.name())
+                    .show_ui(ui, |ui| {
+                        for preset in presets() {
+                            let is_own = preset.name == self.sheet.name();
+                            if ui.selectable_label(is_own, preset.name).clicked() && !is_own {
+                                chosen = Some(preset.name);
+                            }
                         }
-                    }
-                });
-            crate::panel::name_it(&shown.response, "Style");
-            let place = presets()
-                .iter()
-                .position(|preset| preset.name == self.sheet.name());
-            let there = stepped(&shown.response, place.unwrap_or(0), presets().len());
-            chosen = chosen.or(there.map(|there| presets()[there].name));
-            let save = ui.button("Save style");
-            if save
-                .on_hover_text("Ctrl+S: a style file with what is changed")
-                .clicked()
-            {
-                self.save(Take::Style);
-            }
+                    });
+                crate::panel::name_it(&shown.response, "Style");
+                let place = presets()
+                    .iter()
+                    .position(|preset| preset.name == self.sheet.name());
+                let there = stepped(&shown.response, place.unwrap_or(0), presets().len());
+                chosen = chosen.or(there.map(|there| presets()[there].name));
+            });
         });
         if let Some(name) = chosen {
             self.take_style(name, ui);

@@ -111,9 +111,14 @@ fn studio_in_steps(
     overrides: &[&str],
     step_s: f32,
 ) -> (Harness<'static, Studio>, Easel) {
-    let easel = Easel::default();
     let overrides: Vec<String> = overrides.iter().map(|text| (*text).to_owned()).collect();
     let sheet = Sheet::new("toon", Stated::preset("toon").unwrap(), &overrides).unwrap();
+    studio_of(sheet, size, step_s)
+}
+
+/// The same with a style.
+fn studio_of(sheet: Sheet, size: [f32; 2], step_s: f32) -> (Harness<'static, Studio>, Easel) {
+    let easel = Easel::default();
     let studio = Studio::new(sheet, None, Box::new(easel.clone()));
     let harness = Harness::builder()
         .with_size(vec2(size[0], size[1]))
@@ -352,6 +357,25 @@ fn the_panel_keeps_its_width_whatever_is_unfolded_and_searched() {
         harness.run_steps(10);
         assert_eq!(harness.state().order().size, size, "{words}");
     }
+}
+
+#[test]
+fn the_panel_keeps_its_width_whatever_the_style_is_called() {
+    let mut sizes = Vec::new();
+    for name in [
+        "toon",
+        "t.toml",
+        "styles/of a hero who/draws on paper.toml",
+        &"x".repeat(300),
+    ] {
+        let sheet = Sheet::new(name, Stated::preset("toon").unwrap(), &[]).unwrap();
+        let (mut harness, easel) = studio_of(sheet, [1000.0, 800.0], 0.25);
+        harness.run_steps(60);
+        sizes.push(easel.0.borrow().orders[0].size);
+        sizes.push(harness.state().order().size);
+    }
+    sizes.dedup();
+    assert_eq!(sizes.len(), 1, "{sizes:?}");
 }
 
 #[test]
