@@ -407,7 +407,7 @@ fn rows_of([a, b, c]: [[f32; 2]; 3], size: [u32; 2]) -> u32 {
 }
 
 /// The middles of the `rows * rows` equal triangles that one is cut into by lines along its sides.
-fn middles([a, b, c]: [[f32; 2]; 3], rows: u32) -> impl Iterator<Item = [f32; 2]> {
+pub(crate) fn middles([a, b, c]: [[f32; 2]; 3], rows: u32) -> impl Iterator<Item = [f32; 2]> {
     let thirds = (rows * 3) as f32;
     let middle = move |along: u32, up: u32| {
         let (s, t) = (along as f32 / thirds, up as f32 / thirds);

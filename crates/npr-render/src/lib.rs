@@ -27,6 +27,7 @@ mod bend;
 mod bending;
 mod brushes;
 mod calm;
+mod cutoffs;
 #[cfg(feature = "wgpu")]
 mod device;
 mod error;

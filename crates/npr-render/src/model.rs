@@ -1,6 +1,7 @@
 //! A scene prepared for drawing.
 
 use crate::bending::{Bending, Lists, Moved, surfaces_of};
+use crate::cutoffs::Cutoffs;
 use crate::error::{RenderError, check_count};
 use crate::file_light::{self, FileLight};
 use crate::instance::Instance;
@@ -62,8 +63,10 @@ pub struct Model {
 impl Model {
     /// Prepares a scene: joins its nodes, welds each by position, and finds edges, normals and curvature.
     ///
-    /// Alpha that blends is drawn as a cut-out at one half. A mesh without normals is shaded smoothly, with hard
-    /// edges over 40 degrees. O(n log n) in the number of triangles; instances are prepared once each.
+    /// Alpha that blends is cut out at one half, but for glass: what is neither clear nor opaque nearly everywhere is
+    /// drawn as a whole where it covers half or more, and otherwise not at all. A mesh without normals is shaded
+    /// smoothly, with hard edges over 40 degrees. O(n log n) in the number of triangles; instances are prepared once
+    /// each.
     ///
     /// # Errors
     ///
@@ -110,9 +113,10 @@ impl Model {
 
         // Add the meshes of all nodes.
         let mut textures = Textures::new(scene);
+        let cutoffs = Cutoffs::of(scene);
         for (object, node) in scene.nodes.iter().enumerate() {
             if let Some(mesh) = mesh_of(scene, node) {
-                model.add_node(scene, object as u32, node, mesh, &mut textures)?;
+                model.add_node(scene, object as u32, node, mesh, &mut textures, &cutoffs)?;
             }
         }
 
@@ -142,6 +146,7 @@ impl Model {
         node: &Node,
         mesh: &npr_scene::Mesh,
         textures: &mut Textures,
+        cutoffs: &Cutoffs,
     ) -> Result<(), RenderError> {
         // Prepare the mesh at its node, and check that everything can be numbered.
         let first_joint = self.palette.len() as u32;
@@ -213,7 +218,7 @@ impl Model {
         let infos: Vec<PartInfo> = parts
             .iter()
             .map(|part| {
-                let info = PartInfo::new(scene, object, &node.name, part.material);
+                let info = PartInfo::new(scene, object, &node.name, part.material, cutoffs);
                 let texture = base_color_texture(scene, part, textures);
                 let toon = PartToon::new(scene, part, textures);
                 PartInfo {

@@ -1,5 +1,6 @@
 //! Where the surfaces of a scene were before: what trails of motion follow.
 
+use crate::cutoffs::Cutoffs;
 use crate::error::RenderError;
 use crate::part_info::PartInfo;
 use crate::placement::{self, Bounds};
@@ -42,13 +43,14 @@ impl Movement {
             triangles: Vec::new(),
             parts: Vec::new(),
         };
+        let cutoffs = Cutoffs::of(scene);
         for (object, node) in (0..).zip(&scene.nodes) {
             let mesh = node.mesh.and_then(|mesh| scene.meshes.get(mesh as usize));
             let mirrored = placement::determinant_of(&placement::matrices_of(scene, node)[0]) < 0.0;
             for part in mesh.iter().flat_map(|mesh| &mesh.parts) {
                 let info = PartInfo {
                     ids: part.ids.clone(),
-                    ..PartInfo::new(scene, object, &node.name, part.material)
+                    ..PartInfo::new(scene, object, &node.name, part.material, &cutoffs)
                 };
                 let (first, number) = (movement.anchors.len() as u32, movement.parts.len() as u32);
                 let corners_of = |[a, b, c]: [u32; 3]| match mirrored {

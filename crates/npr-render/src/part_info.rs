@@ -1,8 +1,9 @@
 //! What a model knows of each of its surfaces, before a style is applied.
 
+use crate::cutoffs::Cutoffs;
 use crate::part_toon::PartToon;
 use npr_core::geometry::NONE;
-use npr_scene::{AlphaMode, Material, Scene};
+use npr_scene::{Material, Scene};
 use npr_stylesheet::{Look, PartNames, Style};
 
 /// One connected surface of one object in one material and of one id, before a style is applied.
@@ -50,6 +51,7 @@ impl PartInfo {
         object: u32,
         object_name: &str,
         material: Option<u32>,
+        cutoffs: &Cutoffs,
     ) -> Self {
         let plain = Material::default();
         let found = material
@@ -65,11 +67,7 @@ impl PartInfo {
             component: 0,
             base_color: found.base_color,
             texture: NONE,
-            alpha_cutoff: match found.alpha {
-                AlphaMode::Opaque => None,
-                AlphaMode::Mask(cutoff) => Some(cutoff),
-                AlphaMode::Blend => Some(0.5),
-            },
+            alpha_cutoff: cutoffs.at(material),
             double_sided: found.double_sided,
             unlit: found.unlit,
             has_uvs: false,

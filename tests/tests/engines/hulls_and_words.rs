@@ -1,10 +1,11 @@
-//! Hulls of cut-out parts, and words that the scene hides, on both engines.
+//! Hulls of cut-out parts, glass, and words that the scene hides, on both engines.
 
 use npr_drawing::lettering::testing::block_font;
 use npr_gpu::engine::Engine;
 use npr_gpu::processor::Processor;
+use npr_mesh::testing::Random;
 use npr_render::{Font, Frame, Model, RendererOptions};
-use npr_scene::{AlphaMode, Scene};
+use npr_scene::{AlphaMode, Image, Scene, TextureTransform, TextureUse, Wrap};
 use npr_stylesheet::{Lettering, Style};
 use npr_tests::comic::{SIZE, front, pixel, wall};
 use npr_tests::{Object, boxed, device, draw_with, placed, scene_of};
@@ -60,6 +61,61 @@ fn a_hull_is_cut_out_as_its_part_is() {
             outline >= 2 * 120,
             "the outline of the opaque half: {outline}"
         );
+    }
+}
+
+/// A grainy pane before a box: its alpha lies around `alpha` everywhere.
+fn behind_glass(alpha: u8, with_pane: bool) -> Scene {
+    let mut pane = Object::new("Pane", wall(0.9, 0.5));
+    pane.material.alpha = AlphaMode::Blend;
+    pane.material.base_color_texture = Some(TextureUse {
+        image: 0,
+        uv_set: 0,
+        wrap: [Wrap::Clamp; 2],
+        transform: TextureTransform::default(),
+    });
+    let behind = Object::new("Box", boxed([-0.6, -0.4, -1.0], [0.5, 0.6, -0.5]));
+    // Posts make the scene as large without the pane.
+    let posts = [-1.1, 1.0].map(|x| boxed([x, -1.0, -1.0], [x + 0.1, 1.0, 0.6]));
+    let posts = posts.map(|mesh| Object::new("Post", mesh));
+    let objects = posts.into_iter().chain([behind]);
+    let objects: Vec<Object> = objects.chain(with_pane.then_some(pane)).collect();
+    let mut scene = scene_of(&objects);
+    let mut random = Random::new(11);
+    let texel = |_: usize| [90, 140, 60, alpha - 60 + random.below(120) as u8];
+    scene.images.push(Image {
+        name: String::new(),
+        width: 64,
+        height: 64,
+        rgba: (0..64 * 64).flat_map(texel).collect(),
+    });
+    if let Some(mesh) = scene.meshes.get_mut(3) {
+        let part = &mut mesh.parts[0];
+        let uv = |p: &[f32; 3]| [p[0], p[1]].map(|x| x / 1.8 + 0.5);
+        part.uvs = Some(part.positions.iter().map(uv).collect());
+    }
+    scene
+}
+
+#[test]
+fn glass_is_drawn_as_a_whole_or_not_at_all() {
+    let style = Style::preset("toon").unwrap();
+    let options = RendererOptions::new(SIZE);
+    let bare = on_engines(&behind_glass(100, false), &style, &options);
+    let thin = on_engines(&behind_glass(100, true), &style, &options);
+    for (bare, thin) in bare.iter().zip(&thin) {
+        assert!(
+            bare.rgba == thin.rgba,
+            "a pane that covers little is not drawn"
+        );
+    }
+    let mut solid = behind_glass(170, true);
+    let thick = on_engines(&solid, &style, &options);
+    solid.materials[3].alpha = AlphaMode::Opaque;
+    let solid = on_engines(&solid, &style, &options);
+    for ((thick, solid), bare) in thick.iter().zip(&solid).zip(&bare) {
+        assert!(thick.rgba == solid.rgba, "one that covers much is solid");
+        assert!(thick.rgba != bare.rgba, "and it is seen");
     }
 }
 

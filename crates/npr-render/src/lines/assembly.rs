@@ -1,5 +1,6 @@
 //! A scene's meshes where they stand, ready to become one shape.
 
+use crate::cutoffs::Cutoffs;
 use crate::instance::packed_color;
 use crate::joined::Joined;
 use crate::part_info::PartInfo;
@@ -57,9 +58,10 @@ impl Assembly {
     /// style makes beams of.
     pub fn new(scene: &Scene, style: Option<&Style>) -> Self {
         let mut assembly = Self::default();
+        let cutoffs = Cutoffs::of(scene);
         for (object, node) in scene.nodes.iter().enumerate() {
             if let Some(mesh) = node.mesh.and_then(|mesh| scene.meshes.get(mesh as usize)) {
-                assembly.add_node(scene, style, object as u32, node, mesh);
+                assembly.add_node(scene, style, object as u32, node, mesh, &cutoffs);
             }
         }
         assembly
@@ -72,10 +74,11 @@ impl Assembly {
         object: u32,
         node: &Node,
         mesh: &Mesh,
+        cutoffs: &Cutoffs,
     ) {
         // Join the parts of the mesh, and decide how lines treat each.
         let joined = Joined::new(&mesh.parts.iter().collect::<Vec<_>>());
-        let roles = self.add_surfaces(scene, style, object, node, mesh);
+        let roles = self.add_surfaces(scene, style, object, node, mesh, cutoffs);
 
         // Sort triangles and segments by that.
         let placed = || joined.triangles.iter().zip(&joined.parts);
@@ -126,6 +129,7 @@ impl Assembly {
         object: u32,
         node: &Node,
         mesh: &Mesh,
+        cutoffs: &Cutoffs,
     ) -> Vec<Role> {
         let mut roles: BTreeMap<(Option<u32>, &[String]), Role> = BTreeMap::new();
         let parts = mesh.parts.iter().map(|part| {
@@ -133,7 +137,7 @@ impl Assembly {
                 // Leave out what pictures do not show, and beams.
                 let info = PartInfo {
                     ids: part.ids.clone(),
-                    ..PartInfo::new(scene, object, &node.name, part.material)
+                    ..PartInfo::new(scene, object, &node.name, part.material, cutoffs)
                 };
                 if info.is_invisible() {
                     return Role::Unseen;

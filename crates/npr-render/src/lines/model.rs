@@ -647,6 +647,7 @@ impl LineModel {
             width_at: &|vertex| widths.at(vertex),
             paint_at: (view.changes || view.colors.is_some()).then_some(&paint_at),
             is_lit: colors::is_lit(style),
+            follows_bends: widths::follow_bends(style),
         };
         let line = (&settings, paint, &look);
 

@@ -61,6 +61,7 @@ impl Subject {
             width_at: &|_| 2.0,
             paint_at: None,
             is_lit: false,
+            follows_bends: false,
         };
         let settings = LineSettings {
             size,

@@ -67,6 +67,7 @@ pub fn strokes(
         width_at,
         paint_at: None,
         is_lit: false,
+        follows_bends: false,
     };
 
     // Draw without a limit of memory.

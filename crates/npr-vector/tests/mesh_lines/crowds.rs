@@ -44,6 +44,7 @@ fn drawn(
         width_at: &|_| 2.0,
         paint_at: None,
         is_lit: false,
+        follows_bends: false,
     };
     strokes_with(
         shape,

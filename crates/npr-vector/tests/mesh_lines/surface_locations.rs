@@ -70,6 +70,7 @@ fn off_px(mesh: &Mesh, eye: [f32; 3], settings: &LineSettings) -> f64 {
         width_at: &|_| 2.0,
         paint_at: Some(&paint_at),
         is_lit: false,
+        follows_bends: false,
     };
     let contours = EdgeContours::new(&shape, &eye_of(&shape, &projector));
     let found = strokes_with(

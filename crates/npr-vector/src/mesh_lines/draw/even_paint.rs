@@ -7,6 +7,10 @@ use crate::stroke::{Stroke, StrokePoint};
 /// that light would change a line every few pixels, and no pen does.
 const REACH_PX: f64 = 14.0;
 
+/// Pixels by which a width may change along a pixel of a stroke: a tip that is pressed down opens within a few of its
+/// widths.
+const WIDTH_SLOPE: f64 = 0.12;
+
 /// Gives each point of a stroke the mean paint of the stretch around it: colours by alpha, widths by length.
 ///
 /// Towards ends stretches are shorter, so that what changes evenly stays as it is, as does what is even. Where a point
@@ -66,6 +70,54 @@ fn walk(stroke: &Stroke, (from, step): (usize, usize), reach: f64, mean: &mut Me
         at = next;
     }
     first
+}
+
+/// Lets widths that follow the surface change along a stroke no faster than a pen does: at hard edges and small facets
+/// the surface bends at once, and there they would jump.
+///
+/// Each point gets the mean of the widest width that lies nowhere above the stroke's and of the narrowest that lies
+/// nowhere below it, of those that change by [`WIDTH_SLOPE`] at most. So what changes slower stays as it is, and a jump
+/// becomes a slope to both of its sides. O(points).
+pub(super) fn limit_slope(stroke: &mut Stroke) {
+    let points = &stroke.points;
+    let steeper = |from: &StrokePoint, to: &StrokePoint| {
+        (to.width - from.width).abs() > WIDTH_SLOPE * distance(from.position, to.position)
+    };
+    let seam = points.last().zip(points.first()).filter(|_| stroke.closed);
+    let is_steep = points.windows(2).any(|pair| steeper(&pair[0], &pair[1]))
+        || seam.is_some_and(|(last, first)| steeper(last, first));
+    if !is_steep {
+        return;
+    }
+    let widths = || points.iter().map(|point| point.width);
+    let below = envelope(stroke, widths().collect());
+    let above = envelope(stroke, widths().map(|width| -width).collect());
+    for ((point, below), above) in stroke.points.iter_mut().zip(below).zip(above) {
+        point.width = 0.5 * (below - above);
+    }
+}
+
+/// The greatest values that lie nowhere above these, and change along a stroke by [`WIDTH_SLOPE`] at most.
+fn envelope(stroke: &Stroke, mut values: Vec<f64>) -> Vec<f64> {
+    let (points, count) = (&stroke.points, values.len());
+    // A ring is walked from its least value, which stays, once round.
+    let least = (0..count).min_by(|a, b| values[*a].total_cmp(&values[*b]));
+    let (start, steps) = match stroke.closed {
+        true => (least.unwrap_or(0), count),
+        false => (0, count - 1),
+    };
+    let place = |step: usize| (start + step) % count;
+    let mut limit = |from: usize, to: usize| {
+        let gap = distance(points[from].position, points[to].position);
+        values[to] = values[to].min(values[from] + WIDTH_SLOPE * gap);
+    };
+    for step in 0..steps {
+        limit(place(step), place(step + 1));
+    }
+    for step in (0..steps).rev() {
+        limit(place(step + 1), place(step));
+    }
+    values
 }
 
 /// A mean of paint.
@@ -201,6 +253,71 @@ mod tests {
             let (least, most) = (widths().fold(f64::MAX, f64::min), widths().fold(0.0, f64::max));
             for point in &stroke.points {
                 prop_assert!(point.width >= least - 1e-9 && point.width <= most + 1e-9);
+            }
+        }
+    }
+
+    #[test]
+    fn a_ring_is_as_even_over_its_seam() {
+        let mut stroke = painted(true, 100, |i| (BLACK, 1.0 + 0.03 * i as f64));
+        limit_slope(&mut stroke);
+        let [last, first] = [99, 0].map(|i| &stroke.points[i]);
+        let most = 0.12 * distance(last.position, first.position);
+        assert!((last.width - first.width).abs() <= most + 1e-9);
+    }
+
+    #[test]
+    fn a_swell_on_a_short_facet_opens_and_closes_as_a_pen_does() {
+        // Thin for 180 pixels, thick for 15, thin again.
+        let thick = 60..65;
+        let mut stroke = painted(false, 140, |i| {
+            (BLACK, if thick.contains(&i) { 5.5 } else { 2.0 })
+        });
+        limit_slope(&mut stroke);
+        let width = |i: usize| stroke.points[i].width;
+        for pair in stroke.points.windows(2) {
+            assert!((pair[1].width - pair[0].width).abs() <= 3.0 * 0.12 + 1e-9);
+        }
+        assert!((3.5..5.0).contains(&width(62)), "{}", width(62));
+        assert_eq!([width(20), width(120)], [2.0; 2]);
+    }
+
+    proptest! {
+        #[test]
+        fn widths_change_no_faster_than_a_pen_opens(
+            seed in any::<u64>(), closed in any::<bool>(), count in 3_usize..60,
+        ) {
+            let mut random = npr_mesh::testing::Random::new(seed);
+            let widths: Vec<f64> = (0..count).map(|_| f64::from(random.unit()) * 6.0).collect();
+            let mut stroke = painted(closed, count, |i| (BLACK, widths[i]));
+            let before = stroke.clone();
+            limit_slope(&mut stroke);
+            let around = stroke.points.iter().zip(stroke.points.iter().cycle().skip(1));
+            for (from, to) in around.take(if closed { count } else { count - 1 }) {
+                let most = 0.12 * distance(from.position, to.position);
+                prop_assert!((to.width - from.width).abs() <= most + 1e-9);
+            }
+            let (least, most) = widths.iter().fold((9.0_f64, 0.0_f64), |(a, b), w| (a.min(*w), b.max(*w)));
+            prop_assert!(stroke.points.iter().all(|p| p.width >= least - 1e-9 && p.width <= most + 1e-9));
+            // What is slow enough stays as it is.
+            let mut again = stroke.clone();
+            limit_slope(&mut again);
+            for (a, b) in again.points.iter().zip(&stroke.points) {
+                prop_assert!((a.width - b.width).abs() < 1e-9);
+            }
+            prop_assert_eq!(stroke.points.len(), before.points.len());
+        }
+
+        #[test]
+        fn mirrored_strokes_have_mirrored_widths(seed in any::<u64>(), count in 3_usize..60) {
+            let mut random = npr_mesh::testing::Random::new(seed);
+            let widths: Vec<f64> = (0..count).map(|_| f64::from(random.unit()) * 6.0).collect();
+            let mut there = painted(false, count, |i| (BLACK, widths[i]));
+            let mut back = painted(false, count, |i| (BLACK, widths[count - 1 - i]));
+            limit_slope(&mut there);
+            limit_slope(&mut back);
+            for (a, b) in there.points.iter().zip(back.points.iter().rev()) {
+                prop_assert!((a.width - b.width).abs() < 1e-9);
             }
         }
     }

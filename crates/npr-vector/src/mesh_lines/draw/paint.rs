@@ -1,6 +1,6 @@
 //! Turns runs into strokes, with colours and widths along them.
 
-use super::even_paint::even_out;
+use super::even_paint::{even_out, limit_slope};
 use crate::mesh_lines::run::{Run, RunPoint, distance};
 use crate::mesh_lines::smooth::between;
 use crate::project::Lens;
@@ -29,6 +29,8 @@ pub struct StrokeLook<'a> {
     pub paint_at: Option<PaintAt<'a>>,
     /// Whether that hangs on normals, which jump from face to face, so that paint is evened out along strokes.
     pub is_lit: bool,
+    /// Whether widths follow how the surface bends, so that they are kept from jumping along strokes.
+    pub follows_bends: bool,
 }
 
 impl StrokeLook<'_> {
@@ -92,6 +94,12 @@ pub(super) fn painted(
     let mut strokes = strokes_of(runs, &|run: &Run, point: &RunPoint| {
         look.paint(shape, run, point)
     });
+    if look.follows_bends {
+        let of_surfaces = strokes.par_iter_mut().zip(&is_of_card);
+        of_surfaces
+            .filter(|(_, is_of_card)| !**is_of_card)
+            .for_each(|(stroke, _)| limit_slope(stroke));
+    }
     let mut is_of_card = is_of_card.into_iter();
     strokes.retain(|stroke| !(is_of_card.next() == Some(true) && is_blot(stroke)));
     if look.is_lit {

@@ -49,6 +49,7 @@ fn strokes(
         width_at: &|_| 2.0,
         paint_at: None,
         is_lit: false,
+        follows_bends: false,
     };
     let loops = Loops::new(&traced, path);
     traced.strokes(shape, &projector, &loops, None, &look)
