@@ -1,6 +1,7 @@
 //! The job of `npr render`: its arguments, resolved and checked.
 
 use crate::arguments::{DrawingArguments, LookArguments, RenderArguments, Size};
+use crate::debug_layer::DebugLayer;
 use crate::ending::has_ending;
 use crate::fault::{Exit, Fault};
 use crate::look::Look;
@@ -9,7 +10,7 @@ use crate::output::Output;
 use crate::source::{Source, has_volume_name};
 use crate::target::Target;
 use crate::volume::USUAL_STYLE;
-use npr_render::RendererOptions;
+use npr_render::{RendererOptions, SurfaceStage};
 use std::path::{Path, PathBuf};
 
 /// Longest side of a picture, in pixels.
@@ -69,6 +70,10 @@ impl<'a> Job<'a> {
         check_size(Size { width, height })?;
         let options = RendererOptions {
             layers: format == PictureFormat::Exr || args.debug_layer.is_some(),
+            stages: args.debug_layer.is_some(),
+            surfaces: args
+                .debug_layer
+                .map_or_else(SurfaceStage::default, DebugLayer::surfaces),
             size: [width, height],
             enlarged: args.enlarge,
             ..small

@@ -1,13 +1,11 @@
-//! Layers of frames: as OpenEXR files, or shown as pictures.
+//! Layers of frames as OpenEXR files.
 
 use crate::fault::{Exit, Fault};
-use clap::ValueEnum;
 use exr::image::{AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer};
 use exr::meta::attribute::{AttributeValue, Chromaticities, Text};
 use exr::meta::header::LayerAttributes;
 use exr::prelude::{SmallVec, WritableImage, f16};
-use npr_core::color::{SrgbEncoder, premultiplied_light};
-use npr_core::math::mix_bits;
+use npr_core::color::premultiplied_light;
 use npr_render::{Frame, LayerPixel};
 use std::collections::BTreeMap;
 use std::io::Cursor;
@@ -87,106 +85,6 @@ fn channels_of(rgba: Vec<u8>, layers: Vec<LayerPixel>) -> SmallVec<[AnyChannel<F
         AnyChannel::new(name, FlatSamples::F32(values.collect()))
     });
     beauty.chain(lines).chain(floats).collect()
-}
-
-/// A layer that is shown in place of the picture.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-pub enum DebugLayer {
-    /// Print the names of all layers.
-    List,
-    /// Lines alone, over middle grey.
-    Line,
-    /// Depth: white is near, dark is far, black is nothing.
-    Depth,
-    /// Depth of the lines, in the same way.
-    LineDepth,
-    /// Normals in the world: red is right, green is up, blue is towards +z, from -1 to 1.
-    Normal,
-    /// A colour for every object.
-    Object,
-    /// A colour for every stroke.
-    Stroke,
-    /// Places on strokes: red rises along them, anew every 64 pixels, and green from their left edge to their right.
-    Uv,
-}
-
-/// Grey under lines that are shown alone, as an sRGB byte.
-const UNDER_LINES: u8 = 128;
-
-/// Pixels along a stroke over which its red rises.
-const UV_PX: f32 = 64.0;
-
-/// Blue of all strokes there, so that none is black.
-const UV_BLUE: u8 = 96;
-
-/// Share of white that the farthest surface keeps.
-const FARTHEST: f32 = 0.1;
-
-impl DebugLayer {
-    /// The names of all layers with what they show, a line each.
-    pub fn list() -> String {
-        let layers = Self::value_variants()
-            .iter()
-            .filter(|layer| **layer != Self::List);
-        let values = layers.filter_map(Self::to_possible_value);
-        let line = |value: clap::builder::PossibleValue| {
-            let help = value.get_help().map(ToString::to_string);
-            format!("{:10} {}\n", value.get_name(), help.unwrap_or_default())
-        };
-        values.map(line).collect()
-    }
-
-    /// Puts the layer into the place of a frame's colours, and lets go of its layers. O(pixels).
-    pub fn show_in(self, frame: &mut Frame) {
-        let layers = take(&mut frame.layers);
-        let depth_of: Value = match self {
-            Self::LineDepth => |pixel| pixel.stroke_depth,
-            _ => |pixel| pixel.depth,
-        };
-        let depths = layers.iter().map(depth_of);
-        let seen = depths.filter(|depth| *depth < LayerPixel::FAR);
-        let (near, far) = seen.fold((f32::INFINITY, 0.0_f32), |(near, far), depth| {
-            (near.min(depth), far.max(depth))
-        });
-        let [under, ..] = premultiplied_light([UNDER_LINES, 0, 0, 255]);
-        let encoder = SrgbEncoder::new();
-        let shown = |pixel: &LayerPixel| -> [u8; 3] {
-            match self {
-                Self::List | Self::Line => {
-                    let [r, g, b, alpha] = pixel.line;
-                    [r, g, b].map(|light| encoder.byte(light + under * (1.0 - alpha)) as u8)
-                }
-                Self::Depth | Self::LineDepth if depth_of(pixel) >= LayerPixel::FAR => [0; 3],
-                Self::Depth | Self::LineDepth => {
-                    let share = (depth_of(pixel) - near) / (far - near).max(f32::MIN_POSITIVE);
-                    [byte(1.0 - (1.0 - FARTHEST) * share); 3]
-                }
-                Self::Normal => pixel.normal.map(|n| byte(0.5 + 0.5 * n)),
-                Self::Object => color_of(pixel.object),
-                Self::Stroke => color_of(pixel.stroke),
-                Self::Uv if pixel.stroke == 0 => [0; 3],
-                Self::Uv => {
-                    let [u, v] = pixel.uv;
-                    [byte((u / UV_PX).fract()), byte(0.5 + 0.5 * v), UV_BLUE]
-                }
-            }
-        };
-        let colors = layers.iter().map(shown);
-        frame.rgba = colors.flat_map(|[r, g, b]| [r, g, b, 255]).collect();
-    }
-}
-
-fn byte(share: f32) -> u8 {
-    (share.clamp(0.0, 1.0) * 255.0 + 0.5) as u8
-}
-
-/// A colour that tells a number from others: black for 0, none dark for others.
-fn color_of(number: u32) -> [u8; 3] {
-    if number == 0 {
-        return [0; 3];
-    }
-    let [r, g, b, _] = mix_bits(number).to_le_bytes();
-    [r, g, b].map(|channel| 64 + channel / 4 * 3)
 }
 
 #[cfg(test)]

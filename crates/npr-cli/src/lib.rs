@@ -16,6 +16,7 @@ mod bands;
 mod broken_image;
 mod colors;
 mod completions;
+mod debug_layer;
 mod device_choice;
 mod doctor;
 mod dump;

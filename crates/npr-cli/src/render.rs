@@ -2,6 +2,7 @@
 
 use crate::arguments::{DrawingArguments, PoseArguments, RenderArguments};
 use crate::bands::draw_into;
+use crate::debug_layer::DebugLayer;
 use crate::dump::dump_style;
 use crate::encoder;
 use crate::ending::has_ending;
@@ -9,7 +10,7 @@ use crate::engine::{Drawn, EngineChoice};
 use crate::fault::{Exit, Fault};
 use crate::idle;
 use crate::job::{Job, PictureFormat};
-use crate::layers::{self, DebugLayer};
+use crate::layers;
 use crate::lines;
 use crate::look::Look;
 use crate::message;
@@ -95,14 +96,14 @@ fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Frame>, Fault> {
         Picture::Whole(frame) => (frame, false),
         Picture::InBands(written) => (written?, true),
     };
+    if let Some(layer) = job.args.debug_layer {
+        layer.show_in(&mut frame);
+    }
     progress.suspend(|| {
         message::warn_all(job.args.drawing.quiet, &frame.notices);
     });
 
     // Write a whole picture.
-    if let Some(layer) = job.args.debug_layer {
-        layer.show_in(&mut frame);
-    }
     if !is_written {
         let bytes = progress.step("encode", || match job.format {
             PictureFormat::Png => encoder::png(frame.size, &frame.rgba, job.look.is_transparent()),
@@ -317,6 +318,12 @@ fn draw_frame(
     let picture = |engine: &dyn Engine| {
         let renderer = prepared.renderer(engine, (&job.look.style, options))?;
         let mut renderer = renderer.with_progress(&tell);
+        if let Some(layer) = job.args.debug_layer
+            && let Some(stage) = layer.lines()
+        {
+            let drawings = renderer.lines_at(camera, stage)?;
+            return Ok(Picture::Whole(layer.frame_of(drawings, options.size)));
+        }
         if !renderer.draws_bands() {
             return renderer.draw(camera).map(Picture::Whole);
         }

@@ -1,6 +1,7 @@
 //! A finished picture.
 
 use crate::layer_pixel::LayerPixel;
+use crate::stage::StagePixel;
 use npr_gpu::engine::PassTime;
 use rayon::prelude::*;
 
@@ -14,6 +15,9 @@ pub struct Frame {
     /// What every pixel holds beside its colour, where [`RendererOptions::layers`](crate::RendererOptions::layers) asks
     /// for it; else empty. Speed lines, words and a second look of a blend are in the colours alone.
     pub layers: Vec<LayerPixel>,
+    /// What every pixel is on the way to the picture, where [`RendererOptions::stages`](crate::RendererOptions::stages)
+    /// asks for it; else empty.
+    pub stages: Vec<StagePixel>,
     /// Time per pass in running order, summed over tiles.
     pub times: Vec<PassTime>,
     /// What was drawn in another way than the style asks, for the user.
@@ -28,6 +32,7 @@ impl Frame {
             size,
             rgba: vec![0; count],
             layers: Vec::new(),
+            stages: Vec::new(),
             times: Vec::new(),
             notices: Vec::new(),
         }

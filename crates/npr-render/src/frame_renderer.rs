@@ -62,6 +62,8 @@ pub(crate) struct Needs {
     sample_room: usize,
     /// Whether layers for compositing are made.
     layers: bool,
+    /// Whether they come with stages.
+    stages: bool,
 }
 
 /// A frame that is planned: nothing of it has asked an engine for anything.
@@ -203,6 +205,7 @@ impl Needs {
             beams,
             sample_room,
             layers: options.layers,
+            stages: options.stages,
         }
     }
 }
@@ -335,9 +338,10 @@ impl Passes {
         };
         let sides = contrast.plan(&mut frame, grids, features, &layers);
         frame.compose_frame(frame.compose, frame.ids, &layers, sides, frame.frame);
+        let mask = (needs.stages && features.mask).then_some(lines.mask);
         let compositing = needs
             .layers
-            .then(|| CompositingPasses::plan(&mut frame, grids, features, &layers, sides));
+            .then(|| CompositingPasses::plan(&mut frame, grids, features, (&layers, mask), sides));
         let passes = Self {
             frame,
             lines,
@@ -403,7 +407,10 @@ impl FramePlan {
         let planned = self.passes.frame.graph.planned_bytes() as usize;
         budget.take("the plan of the frame", planned, 1)?;
         match &self.passes.compositing {
-            Some(passes) => passes.take_memory((budget, self.graph()), self.options.size),
+            Some(passes) => {
+                let sized = (self.options.size, self.options.stages);
+                passes.take_memory((budget, self.graph()), sized)
+            }
             None => Ok(()),
         }
     }

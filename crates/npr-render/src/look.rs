@@ -142,6 +142,8 @@ impl StyledModel {
             false => Vec::new(),
         };
         let pens = inked.pens(model, &mut parts);
+        let notice = options.surfaces.apply(&mut parts, &mut textures);
+        inked.notices.extend(notice);
         Ok(Self {
             vertices: styled_vertices(model, style, options, (&pens, &calming)),
             calming,

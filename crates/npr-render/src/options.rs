@@ -2,6 +2,7 @@
 
 use crate::error::RenderError;
 use crate::smoke::Smoke;
+use crate::stage::SurfaceStage;
 use crate::tiles::TILE_PIXELS;
 use npr_drawing::lettering::Font;
 use npr_scene::Image;
@@ -62,6 +63,11 @@ pub struct RendererOptions {
     /// Whether frames come with [`Frame::layers`](crate::Frame::layers), for compositing; those that are recorded for
     /// another program never do.
     pub layers: bool,
+    /// Whether frames with layers come with [`Frame::stages`](crate::Frame::stages) too, for somebody who wants to see
+    /// how they are made.
+    pub stages: bool,
+    /// How far surfaces are drawn: all the way by default, else to a stage that somebody wants to see.
+    pub surfaces: SurfaceStage,
 }
 
 impl RendererOptions {
@@ -91,6 +97,8 @@ impl RendererOptions {
             in_bands: false,
             alone: false,
             layers: false,
+            stages: false,
+            surfaces: SurfaceStage::default(),
         }
     }
 }

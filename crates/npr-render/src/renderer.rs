@@ -5,7 +5,7 @@ use crate::error::RenderError;
 use crate::features::blending::Blending;
 use crate::features::lettering::Lettering;
 use crate::features::speed_lines::SpeedLines;
-use crate::features::stroke_places::{StrokePlace, stroke_places};
+use crate::features::stroke_places::{StrokePlaces, stroke_places};
 use crate::features::strokes::{self, FoundStrokes, StrokeReport};
 use crate::frame::Frame;
 use crate::frame_graph::pixel_count;
@@ -19,6 +19,7 @@ use crate::movement::Movement;
 use crate::options::{RendererOptions, check_size};
 use crate::part_info::PartInfo;
 use crate::smoke::Smoke;
+use crate::stage::{LineStage, StagePixel};
 use crate::surfaces::Surfaces;
 use crate::tiles::Tiles;
 use npr_core::budget::Budget;
@@ -68,7 +69,7 @@ pub(crate) struct Begun {
     /// How its strokes were found.
     strokes: StrokeReport,
     /// What every pixel shows of strokes, where layers have that.
-    stroke_places: Vec<StrokePlace>,
+    stroke_places: StrokePlaces,
     /// The same frame in the other look of a blend.
     other: Option<Box<Begun>>,
 }
@@ -338,6 +339,25 @@ impl<'a> Renderer<'a> {
         }
     }
 
+    /// Strokes at a stage on the way to those of a frame, in its pixels, with the widths that its style gives them
+    /// there; none where lines are no strokes ([`Self::has_strokes`]). Each method that the style asks for gives its
+    /// own drawing. It takes as long as strokes take to be found. Of a blend it is the first look.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Self::draw`] that have to do with lines.
+    pub fn lines_at(
+        &mut self,
+        camera: &Camera,
+        stage: LineStage,
+    ) -> Result<Vec<Drawing>, RenderError> {
+        let FramePlan { style, options, .. } = &self.frames.plan;
+        match &mut self.lines {
+            Some(lines) => strokes::at_stage(lines, camera, (style, options), stage),
+            None => Ok(Vec::new()),
+        }
+    }
+
     /// Draws the pictures of toon materials where they are after some seconds, in the looks of a blend that use the
     /// scene's hints; see [`Model::flow_textures`]. The model that was given stays as it is.
     ///
@@ -482,7 +502,7 @@ impl<'a> Renderer<'a> {
                 let inked = (self.frames.plan.styled(), base_px);
                 stroke_places(found.seen, &aimed.view, inked, options.size)
             }
-            false => Vec::new(),
+            false => StrokePlaces::default(),
         };
         Ok(Begun {
             aimed,
@@ -496,10 +516,18 @@ impl<'a> Renderer<'a> {
     /// Takes the frame that was begun first of those that are not finished, and draws what goes over it as a whole.
     pub(crate) fn finish(&mut self, mut begun: Begun) -> Result<Frame, RenderError> {
         // Take the tiles.
-        let RendererOptions { size, layers, .. } = self.frames.plan.options;
+        let RendererOptions {
+            size,
+            layers,
+            stages,
+            ..
+        } = self.frames.plan.options;
         let mut frame = Frame::new(size);
         if layers {
             frame.layers = vec![LayerPixel::EMPTY; pixel_count(size)];
+        }
+        if layers && stages {
+            frame.stages = vec![StagePixel::default(); pixel_count(size)];
         }
         frame.notices.extend_from_slice(self.notices());
         let tiles = *self.frames.plan.tiles();
@@ -508,11 +536,16 @@ impl<'a> Renderer<'a> {
             self.frames.take_tile(aimed, at, &mut frame)?;
             self.tell_of(&tiles, origin);
         }
-        for (pixel, place) in frame.layers.iter_mut().zip(&begun.stroke_places) {
+        let StrokePlaces { places, kinds } = &begun.stroke_places;
+        for (pixel, place) in frame.layers.iter_mut().zip(places) {
             if pixel.line[3] > 0.0 {
                 (pixel.stroke, pixel.stroke_depth, pixel.uv) =
                     (place.number, place.depth, place.uv);
             }
+        }
+        for (pixel, layers) in frame.stages.iter_mut().zip(&frame.layers) {
+            let index = layers.stroke.checked_sub(1);
+            pixel.kind = index.and_then(|index| kinds.get(index as usize).copied());
         }
         begun.strokes.tell(&mut frame);
 

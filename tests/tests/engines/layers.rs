@@ -19,7 +19,7 @@ use npr_tests::{Object, boxed, device, draw_of, lines, scene_of};
 const SIZE: [u32; 2] = [150, 110];
 
 /// The processor, and a device where there is one.
-fn engines() -> impl Iterator<Item = &'static dyn Engine> {
+pub fn engines() -> impl Iterator<Item = &'static dyn Engine> {
     let engines = [
         Some(&Processor as &dyn Engine),
         device().map(|device| device as &dyn Engine),
@@ -34,7 +34,7 @@ fn with_layers() -> RendererOptions {
     }
 }
 
-fn camera() -> Camera {
+pub fn camera() -> Camera {
     Camera {
         eye: [1.5, 2.0, 5.0],
         target: [0.2, 0.1, 0.0],
@@ -67,7 +67,7 @@ fn ball() -> Object {
 }
 
 /// A ball and a box that stand in a corner of two walls, all in colours of their own.
-fn corner() -> Scene {
+pub fn corner() -> Scene {
     let floor = mapped(&plane(1, 1), |[x, y, _]| {
         [6.0 * x - 3.0, -1.0, 3.0 - 6.0 * y]
     });

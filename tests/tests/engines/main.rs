@@ -16,4 +16,5 @@ mod polylines;
 mod poses;
 mod skies;
 mod smoke;
+mod stages;
 mod toons;

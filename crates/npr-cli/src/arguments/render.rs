@@ -1,7 +1,7 @@
 //! The arguments of `npr render`.
 
 use super::{CacheArguments, DrawingArguments};
-use crate::layers::DebugLayer;
+use crate::debug_layer::DebugLayer;
 use clap::Args;
 use std::path::PathBuf;
 

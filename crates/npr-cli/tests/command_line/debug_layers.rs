@@ -8,24 +8,53 @@ use std::collections::{BTreeMap, BTreeSet};
 const PAIR: &[u8] = b"o Left\nv -2 0 0\nv -0.5 0 0\nv -2 2 0\nf 1 2 3\n\
     o Right\nv 0.5 0 -3\nv 2 0 -3\nv 2 2 -3\nf 4 5 6\n";
 
-const LAYERS: [&str; 7] = [
-    "line",
+/// A large triangle before a small one.
+const BEHIND: &[u8] = b"o Front\nv -2 0 0\nv 2 0 0\nv 0 2 0\nf 1 2 3\n\
+    o Back\nv -0.3 0.3 -1\nv 0.3 0.3 -1\nv 0 0.8 -1\nf 4 5 6\n";
+
+const LAYERS: [&str; 20] = [
+    "triangle",
     "depth",
-    "line-depth",
     "normal",
     "object",
+    "material",
+    "base",
+    "light",
+    "tones",
+    "ink",
+    "surfaces",
+    "mask",
+    "found",
+    "sight",
+    "pieces",
+    "joined",
     "stroke",
+    "kind",
     "uv",
+    "line-depth",
+    "line",
 ];
 
 /// The colours of a layer's picture, the most frequent first.
 fn colors(layer: &str) -> Vec<[u8; 3]> {
+    colors_in(layer, &[])
+}
+
+/// The same in a style with further keys.
+fn colors_in(layer: &str, keys: &[&str]) -> Vec<[u8; 3]> {
+    colors_of(PAIR, layer, keys)
+}
+
+/// The same of another scene.
+fn colors_of(scene: &[u8], layer: &str, keys: &[&str]) -> Vec<[u8; 3]> {
     let place = Workplace::new();
-    place.put("pair.obj", PAIR);
+    place.put("pair.obj", scene);
     let view = ["--size", "96x64", "--eye", "0,1,9", "--target", "0,1,0"];
     let shown = ["render", "pair.obj", "--debug-layer", layer];
     let style = ["--set", "line.width.base=4px", "--quiet"];
-    let outcome = place.npr(&[&shown[..], &view, &style].concat());
+    let keys = keys.iter().flat_map(|key| ["--set", key]);
+    let keys: Vec<&str> = keys.collect();
+    let outcome = place.npr(&[&shown[..], &view, &style, &keys].concat());
     outcome.assert_silent_success();
     let picture = image::load_from_memory(&place.get("pair.png"));
     let picture = picture.expect("a picture").to_rgb8();
@@ -75,6 +104,79 @@ fn layers_show_what_they_are_about() {
     assert_eq!(lines[0], [128; 3]);
     let is_dark = |color: &[u8; 3]| color.iter().all(|channel| *channel < 60);
     assert!(is_dark(&lines[1]), "{lines:?}");
+}
+
+/// The colours that many pixels of a picture of surfaces have, where nothing lies between them.
+const SHARP: &str = "antialias.samples=1";
+
+#[test]
+fn stages_of_surfaces_show_their_share_of_the_style() {
+    // Two triangles in one material.
+    assert_eq!(colors_in("triangle", &[SHARP]).len(), 3);
+    assert_eq!(colors_in("material", &[SHARP]).len(), 2);
+    // The light comes from the eye, from behind, or from above.
+    let space = "light.space=world";
+    for (direction, grey) in [("0,0,1", 255), ("0,0,-1", 0), ("0,1,0", 128)] {
+        let direction = format!("light.direction=[{direction}]");
+        let found = colors_in("light", &[SHARP, space, &direction, "background=#ff0000"]);
+        assert_eq!(found.len(), 2, "{found:?}");
+        let off = i32::from(found[1][0]) - grey;
+        assert!(off.abs() <= 1 && found[0] == [255, 0, 0], "{found:?}");
+    }
+    // A material of light 0.8 as it is, then in a tone of half of that; ink covers white, and then the tone.
+    let keys = [
+        SHARP,
+        "background=#ff0000",
+        "shade.ramp=[{ at = 0.0, light = 0.5 }]",
+        "ink.tone=auto",
+        "ink.color=#0000ff",
+        "ink.dark_at=1.0",
+        "ink.light_at=1.0",
+    ];
+    let of = |layer| colors_in(layer, &keys);
+    let [base, tones] = [of("base"), of("tones")].map(|found| found[1]);
+    assert!(tones[0] < base[0] - 30, "{base:?} {tones:?}");
+    assert_eq!(of("ink")[1], [0, 0, 255]);
+    assert_eq!(of("surfaces")[1], [0, 0, 255]);
+}
+
+#[test]
+fn stages_of_lines_show_their_share_of_the_style() {
+    // Ends of surfaces; two triangles side by side hide nothing.
+    let orange = [255, 160, 0];
+    for layer in ["found", "kind"] {
+        assert!(colors(layer).contains(&orange), "{layer}");
+    }
+    let sights = colors("sight");
+    let is_grey = |color: &[u8; 3]| color[0] == color[1] && color[1] == color[2];
+    assert!(
+        sights.contains(&[255; 3]) && sights.iter().all(is_grey),
+        "{sights:?}"
+    );
+    // The same with the right one behind the left one.
+    let behind = colors_of(BEHIND, "sight", &[]);
+    assert!(behind.contains(&[255, 0, 0]), "{behind:?}");
+    // Each line is one piece, and one stroke.
+    let many = |layer: &str| {
+        let bright = colors(layer).into_iter();
+        bright
+            .filter(|color| color.iter().all(|channel| *channel >= 64))
+            .count()
+    };
+    assert!(many("pieces") >= many("joined") && many("joined") >= 2);
+    // The mask holds what methods of pixels find.
+    let found = colors_in("mask", &["line.method=shape"]);
+    assert!(found.iter().any(|color| color[2] == 255), "{found:?}");
+}
+
+#[test]
+fn empty_layers_are_told() {
+    let place = Workplace::new();
+    place.put("pair.obj", PAIR);
+    let shown = ["render", "pair.obj", "--size", "64x64", "--debug-layer"];
+    let mask = place.npr(&[&shown[..], &["mask"]].concat());
+    let told = "the layer mask is of one colour: nothing of it shows in this frame";
+    assert!(mask.stderr.contains(told), "{}", mask.stderr);
 }
 
 #[test]

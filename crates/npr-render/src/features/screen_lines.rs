@@ -16,7 +16,8 @@ use npr_gpu::passes::{line, mesh};
 pub(crate) struct ScreenLines {
     mask_window: ResourceId,
     edges: ResourceId,
-    mask: ResourceId,
+    /// What found a line at every pixel of its grid, on the processor and devices alike.
+    pub mask: ResourceId,
     /// What surface, light and depth decide about the colour of lines, at every pixel of the mask.
     tints: ResourceId,
     /// Mesh edges and strokes drawn with width.

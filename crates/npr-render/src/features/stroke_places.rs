@@ -4,6 +4,7 @@ use super::strokes;
 use crate::frame_graph::pixel_count;
 use crate::layer_pixel::LayerPixel;
 use crate::look::StyledModel;
+use npr_core::line_kind::Kind;
 use npr_core::window::{View, Window};
 use npr_drawing::ink::Images;
 use npr_vector::brush::Brushes;
@@ -28,6 +29,15 @@ pub(crate) struct StrokePlace {
     pub uv: [f32; 2],
 }
 
+/// What the pixels of a frame show of strokes.
+#[derive(Debug, Default)]
+pub(crate) struct StrokePlaces {
+    /// What every pixel shows; empty where there are no strokes.
+    pub places: Vec<StrokePlace>,
+    /// What each stroke is on the shape, in the order of their numbers.
+    pub kinds: Vec<Kind>,
+}
+
 /// What every pixel of a frame of `size` shows of strokes.
 ///
 /// Strokes are drawn once more, on the processor, with their numbers in the place of their colours: the same one wins
@@ -37,7 +47,7 @@ pub(crate) fn stroke_places(
     view: &View,
     (styled, base_px): (&StyledModel, f32),
     size: [u32; 2],
-) -> Vec<StrokePlace> {
+) -> StrokePlaces {
     // Give every stroke its number.
     let strokes = drawings.iter_mut().flat_map(|drawing| &mut drawing.strokes);
     for (number, stroke) in (1u32..).zip(strokes) {
@@ -79,7 +89,9 @@ pub(crate) fn stroke_places(
         };
         picture.find(number, stroke, stamps_px);
     }
-    places
+    let strokes = drawings.iter().flat_map(|drawing| &drawing.strokes);
+    let kinds = strokes.map(|stroke| stroke.kind).collect();
+    StrokePlaces { places, kinds }
 }
 
 /// The largest width of a stroke, in pixels.
@@ -166,7 +178,6 @@ impl Picture<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use npr_core::line_kind::Kind;
 
     fn point(x: f64, y: f64, depth: f64) -> StrokePoint {
         StrokePoint {

@@ -8,6 +8,7 @@ use crate::frame_graph::{FrameGraph, write};
 use crate::lines::{LineOptions, LineRenderer, Pointed, Spot};
 use crate::manners::StrokeManners;
 use crate::options::RendererOptions;
+use crate::stage::LineStage;
 use npr_core::budget::Budget;
 use npr_core::camera::Camera;
 use npr_core::line_source::LineSource;
@@ -179,6 +180,27 @@ pub(crate) fn point_at(
         line.away_px *= by;
     }
     Ok(pointed)
+}
+
+/// The strokes of every method at a stage, in pixels of the frame.
+pub(crate) fn at_stage(
+    lines: &mut LineRenderer<'_>,
+    camera: &Camera,
+    (style, options): (&Style, &RendererOptions),
+    stage: LineStage,
+) -> Result<Vec<Drawing>, RenderError> {
+    let mut drawings = Vec::new();
+    for method in style.curve_sources() {
+        let of_method = LineOptions {
+            method,
+            hidden: stage == LineStage::Found,
+            smooth: stage == LineStage::Joined,
+            ..line_options(style, options)
+        };
+        let drawing = lines.found_curves(camera, style, &of_method, &options.pictures)?;
+        drawings.push(drawing.enlarged(options.enlarged));
+    }
+    Ok(drawings)
 }
 
 /// The points of the strokes that a camera sees, in their order, with brushes that lie on them by the base width.

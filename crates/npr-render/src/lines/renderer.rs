@@ -4,7 +4,7 @@ use super::film::HeldLines;
 use super::finder::{Finder, OnDevice, OnProcessor};
 use super::model::LineModel;
 use super::options::LineOptions;
-use super::why::{Pointed, Probe, Spot, nobody};
+use super::why::{Pointed, Probe, Spot, Watch, WidthStep, nobody};
 use crate::error::RenderError;
 use crate::frame::Frame;
 use crate::model::Model;
@@ -15,8 +15,9 @@ use npr_core::camera::Camera;
 use npr_gpu::engine::{Engine, PassTime};
 use npr_scene::Scene;
 use npr_stylesheet::Style;
-use npr_vector::stroke::Drawing;
+use npr_vector::stroke::{Drawing, Stroke};
 use std::borrow::Cow;
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -214,19 +215,48 @@ impl<'a> LineRenderer<'a> {
         pictures: &BTreeMap<String, Picture>,
         spot: Spot,
     ) -> Result<Pointed, RenderError> {
+        let probe = Probe::new(spot);
+        let see = |step: WidthStep, strokes: &[Stroke]| probe.see(step, strokes);
+        let drawing = self.watched_curves(camera, style, options, pictures, &see)?;
+        self.model()
+            .pointed((camera, style, options), &drawing, &probe)
+    }
+
+    /// The lines of [`Self::draw_curves`] as they are found, before the style changes anything about their ways.
+    pub(crate) fn found_curves(
+        &mut self,
+        camera: &Camera,
+        style: &Style,
+        options: &LineOptions,
+        pictures: &BTreeMap<String, Picture>,
+    ) -> Result<Drawing, RenderError> {
+        let found = RefCell::new(Vec::new());
+        let see = |step: WidthStep, strokes: &[Stroke]| {
+            if step == WidthStep::Part {
+                found.replace(strokes.to_vec());
+            }
+        };
+        let drawing = self.watched_curves(camera, style, options, pictures, &see)?;
+        Ok(Drawing {
+            strokes: found.into_inner(),
+            ..drawing
+        })
+    }
+
+    /// The lines of [`Self::draw_curves`] of a frame that holds to no other, watched on the way.
+    fn watched_curves(
+        &mut self,
+        camera: &Camera,
+        style: &Style,
+        options: &LineOptions,
+        pictures: &BTreeMap<String, Picture>,
+        watch: Watch<'_>,
+    ) -> Result<Drawing, RenderError> {
         self.finder.start_view();
         let model = self.posed.as_deref().unwrap_or(self.given);
-        let probe = Probe::new(spot);
         let find: &mut dyn Finder = self.finder.as_mut();
-        let drawing = model.draw_curves(
-            camera,
-            style,
-            (options, false),
-            pictures,
-            (find, (None, self.movement.as_deref())),
-            &|step, strokes| probe.see(step, strokes),
-        )?;
-        model.pointed((camera, style, options), &drawing, &probe)
+        let seen = (find, (None, self.movement.as_deref()));
+        model.draw_curves(camera, style, (options, false), pictures, seen, watch)
     }
 
     /// The lines of the parts whose style asks for curves that are found as `options` says; smoke hides none of them.
