@@ -167,7 +167,15 @@ fn pictures_on_surfaces_play_without_a_clip() {
 
 #[test]
 fn a_motion_plays_its_first_clip_and_another_scene_rests() {
-    let (mut harness, easel) = stage([1000.0, 700.0], Pose::default(), cast());
+    // The scene plays its second clip before, and the motion has one of that name too.
+    let second = cast().clips.last().map(|clip| clip.name.clone());
+    let playing = Pose {
+        clip: second.clone(),
+        ..Pose::default()
+    };
+    let (mut harness, easel) = stage([1000.0, 700.0], playing, cast());
+    assert_eq!(last(&easel).pose.clip, second);
+    assert_ne!(second.as_deref(), Some("Walk"));
     let motion = Cast {
         motion: Some("wave.vrma".to_owned()),
         ..cast()
@@ -277,8 +285,15 @@ fn films_are_taken_of_what_plays_and_of_a_turn() {
     harness.run_steps(4);
     harness.get_by_label("Film").click();
     harness.run_steps(3);
+    harness.key_press(Key::Space);
+    harness.run_steps(1);
+    assert!(harness.state().plays());
     harness.get_by_label("GIF").click();
     harness.run_steps(3);
+    assert!(
+        !harness.state().plays(),
+        "a film takes the machine for itself"
+    );
     let (film, order) = easel.0.borrow().films[0].clone();
     assert_eq!(
         (film.form, film.plays, film.turns),
