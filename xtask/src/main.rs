@@ -67,6 +67,7 @@ usage: cargo xtask COMMAND
                     tables of the usual frame; ARGS: --model FILE, --ball TRIANGLES, --preset NAME, --size WxH
   measure viewers   measure how much files of lines differ from frames in resvg, Chromium and Inkscape, and keep the
                     tables
+  measure view      measure how fast the picture of the window follows the hand, in release, and keep the table
   measure mtoon     measure how far figures in the preset mtoon are from those of three-vrm, and keep the table
                     and pictures
   measure trace     measure tracings beside potrace, vtracer and OpenCV, in release, and keep the tables
@@ -118,6 +119,7 @@ fn dispatch(root: &Path, words: &[&str]) -> Option<Result<()>> {
         ["measure", "motion", rest @ ..] => measure::motion(root, rest),
         ["measure", "device", rest @ ..] => measure::device(root, rest),
         ["measure", "viewers"] => measure::viewers(root),
+        ["measure", "view"] => measure::view(root),
         ["measure", "mtoon"] => measure::mtoon(root),
         ["measure", "trace"] => measure::trace(root),
         ["gallery", presets @ ..] => gallery::draw(root, presets),

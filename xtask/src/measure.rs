@@ -38,6 +38,9 @@ const TRACE: &str = "benches/results/trace.md";
 /// Where the tables of files in other viewers are kept.
 const VIEWERS: &str = "benches/results/viewers.md";
 
+/// Where the tables of the window are kept.
+const VIEW: &str = "benches/results/view.md";
+
 /// Where the tables of figures beside three-vrm are kept, and their pictures.
 const MTOON: [&str; 2] = ["benches/results/mtoon.md", "benches/results/mtoon.png"];
 
@@ -174,6 +177,24 @@ pub fn mtoon(root: &Path) -> Result<()> {
         .arg(models)
         .arg(picture);
     write_whole(&tables, &printed(program)?)
+}
+
+/// Measures how fast the picture of the window follows the hand in release, prints the table and keeps it.
+pub fn view(root: &Path) -> Result<()> {
+    let models = root.join("../shared/assets/models");
+    ensure!(models.is_dir(), "there is no {}", models.display());
+    let scenes = ["kenney_alien.glb", "flight_helmet.glb"].map(|name| models.join(name));
+    let mut program = cargo(root);
+    program
+        .args(["test", "--release", "-p", "npr-cli", "--lib", "--"])
+        .args(["--ignored", "--nocapture", "--exact"])
+        .arg("view::tests::hand::measured")
+        .env("NPR_VIEW_SCENES", std::env::join_paths(scenes)?);
+    let printed = String::from_utf8(printed(program)?)?;
+    let is_table = |line: &&str| line.starts_with(['#', '|', '-']) || line.is_empty();
+    let lines: Vec<&str> = printed.lines().filter(is_table).collect();
+    let tables = format!("{}\n", lines.join("\n").trim());
+    write_whole(&root.join(VIEW), tables.as_bytes())
 }
 
 /// Measures tracings beside other programs, prints the tables and keeps them.

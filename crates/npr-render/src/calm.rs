@@ -6,12 +6,25 @@ use glam::Vec3;
 use npr_core::geometry::Vertex;
 use npr_mesh::calm::Shaded;
 use npr_mesh::curvature::tightest;
+use std::sync::{Arc, PoisonError};
 
 /// What has to be added to the normal of every vertex, and made unit length, to average it as far as `share` of the
-/// model's radius; kept where there is a folder for it.
+/// model's radius; kept for the next style with this share, and where there is a folder for it.
 ///
 /// Measured on the meshes as they were prepared, whatever the pose: what moves keeps the same calm.
-pub(crate) fn calming(model: &Model, share: f32) -> Vec<Vec3> {
+pub(crate) fn calming(model: &Model, share: f32) -> Arc<Vec<Vec3>> {
+    let mut last = model.calmed.lock().unwrap_or_else(PoisonError::into_inner);
+    match &*last {
+        Some((of, calming)) if *of == share.to_bits() => Arc::clone(calming),
+        _ => {
+            let found = Arc::new(find_calming(model, share));
+            *last = Some((share.to_bits(), Arc::clone(&found)));
+            found
+        }
+    }
+}
+
+fn find_calming(model: &Model, share: f32) -> Vec<Vec3> {
     // Gather the meshes, in lengths of the world.
     let vertices = model.unmorphed();
     let object_of = |vertex: &Vertex| {

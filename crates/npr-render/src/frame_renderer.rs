@@ -559,7 +559,7 @@ impl<S: Session> FrameRenderer<S> {
     /// Base width of strokes in a view, in pixels, which images of brushes are as wide as.
     pub fn stroke_base_px(&self, view: &View, camera: &Camera, model: &Model) -> f32 {
         let FramePlan { style, options, .. } = &self.plan;
-        let enlarged = options.enlarged as f32;
+        let enlarged = options.stroke_scale() as f32;
         let world_px = look::nearest_world_px(view, camera, model) / enlarged;
         let (size, dpi) = (options.stroke_size(), options.stroke_dpi());
         look::base_px(style, size[1], dpi, world_px) * enlarged
@@ -588,7 +588,7 @@ impl<S: Session> FrameRenderer<S> {
         let base_px = look::base_px(style, size[1], dpi, world_px);
         let stroke_base_px = self.stroke_base_px(&view, camera, model);
         let (stroke_size, stroke_dpi) = (options.stroke_size(), options.stroke_dpi());
-        let enlarged = options.enlarged as f32;
+        let enlarged = options.stroke_scale() as f32;
         let half = look::largest_half_width(style, &needs.styled.parts, base_px);
         let reach_px = half.ceil().min(LARGEST_PX) as u32 + 1;
         let outline = look::outline(style, model.radius(), size[1], dpi, reach_px);

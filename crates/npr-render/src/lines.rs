@@ -14,6 +14,7 @@ mod paint;
 mod pixels;
 mod posing;
 mod prepared;
+mod recent;
 mod renderer;
 mod smear;
 mod smoke;

@@ -31,13 +31,14 @@ use npr_stylesheet::{
     Background, Edge, Highlight, HighlightModel, Look, OutlineMethod, ShadeMode, Style, Unit,
     Width, WidthSource,
 };
+use std::sync::Arc;
 
 /// Everything a style decides before the camera is known.
 #[derive(Debug)]
 pub(crate) struct StyledModel {
     pub vertices: Vec<Vertex>,
     /// What calms the normals of the vertices; empty where the style leaves them as they are.
-    pub calming: Vec<Vec3>,
+    pub calming: Arc<Vec<Vec3>>,
     pub parts: Vec<Part>,
     /// Number of the part that stands for smoke, behind all others, where a pen or a picture finishes smoke.
     pub smoke_part: Option<u32>,
@@ -139,7 +140,7 @@ impl StyledModel {
         parts.extend(smoke);
         let calming = match style.shade.calm > 0.0 {
             true => calming(model, style.shade.calm),
-            false => Vec::new(),
+            false => Arc::default(),
         };
         let pens = inked.pens(model, &mut parts);
         let notice = options.surfaces.apply(&mut parts, &mut textures);

@@ -22,6 +22,11 @@ use npr_scene::{Node, Scene};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::{Arc, Mutex};
+
+/// What was added to the normals of a model last, with the share of the radius that it was for, as bits. Copies of the
+/// model in other poses have it too.
+pub(crate) type LastCalming = Arc<Mutex<Option<(u32, Arc<Vec<Vec3>>)>>>;
 
 /// A scene prepared for drawing: one list of vertices, triangles and edges, whatever the camera and the style.
 #[derive(Debug, Clone)]
@@ -58,6 +63,7 @@ pub struct Model {
     notices: Vec<String>,
     /// Where what is costly to prepare is kept.
     pub(crate) cache: Cache,
+    pub(crate) calmed: LastCalming,
 }
 
 impl Model {
@@ -89,6 +95,7 @@ impl Model {
     pub fn cached(scene: &Scene, folder: Option<&Path>) -> Result<Self, RenderError> {
         let mut model = Self {
             cache: Cache::of(folder),
+            calmed: LastCalming::default(),
             vertices: Vec::new(),
             influences: Vec::new(),
             painted: Vec::new(),

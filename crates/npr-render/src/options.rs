@@ -40,6 +40,12 @@ pub struct RendererOptions {
     /// picture of `size` divided by that, rounded down, and enlarged, so that a small frame and a large one are the
     /// same drawing. Lengths of strokes in `px` are pixels of the small one.
     pub enlarged: u32,
+    /// Width and height of the picture whose strokes the frame shows, where that is one of the same shape and another
+    /// size: strokes are found for it, and scaled to the frame with all their lengths. It takes the place of
+    /// `enlarged`; a draft that has the strokes of its full picture need not find any ([`LineModel::keep_views`]).
+    ///
+    /// [`LineModel::keep_views`]: crate::LineModel::keep_views
+    pub strokes_of: Option<[u32; 2]>,
     /// The picture behind the scene, where the style names one.
     pub background_image: Option<Picture>,
     /// The pictures that [`Style::named_pictures`](npr_stylesheet::Style::named_pictures) lists, by the names that the
@@ -73,12 +79,24 @@ pub struct RendererOptions {
 impl RendererOptions {
     /// Size of the picture that strokes are found for.
     pub(crate) fn stroke_size(&self) -> [u32; 2] {
-        self.size.map(|side| (side / self.enlarged.max(1)).max(1))
+        let own = self.size.map(|side| (side / self.enlarged.max(1)).max(1));
+        self.strokes_of.unwrap_or(own)
     }
 
     /// Pixels per inch of that picture.
     pub(crate) fn stroke_dpi(&self) -> f32 {
-        self.dpi / self.enlarged.max(1) as f32
+        match self.strokes_of {
+            Some(_) => self.dpi,
+            None => self.dpi / self.enlarged.max(1) as f32,
+        }
+    }
+
+    /// How much larger the frame is than that picture.
+    pub(crate) fn stroke_scale(&self) -> f64 {
+        match self.strokes_of {
+            Some([_, height]) => f64::from(self.size[1]) / f64::from(height.max(1)),
+            None => f64::from(self.enlarged.max(1)),
+        }
     }
 
     /// Options for a frame of `size` pixels with strokes of its own: 96 pixels per inch, no pictures, fonts, smoke or
@@ -88,6 +106,7 @@ impl RendererOptions {
             size,
             dpi: 96.0,
             enlarged: 1,
+            strokes_of: None,
             background_image: None,
             pictures: BTreeMap::new(),
             fonts: BTreeMap::new(),

@@ -598,7 +598,7 @@ impl<'a> Renderer<'a> {
             let FramePlan { style, options, .. } = &frames.plan;
             let of_page = (options.stroke_size(), options.stroke_dpi());
             let lines = find_motion_lines(movement, (&begun.camera, style), of_page);
-            lay_strokes_over(lines.enlarged(options.enlarged), frame);
+            lay_strokes_over(lines.scaled(options.stroke_scale()), frame);
         }
         if let (Some((other, blending)), Some(begun)) = (&mut self.blended, begun.other) {
             blending.finish(&other.finish(*begun)?, frame);

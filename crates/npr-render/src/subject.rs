@@ -68,6 +68,13 @@ impl Subject {
         }
     }
 
+    /// Whether a subject that was prepared for the style `of` is the one that another style would get, of a scene that
+    /// neither cuts up ([`apply_id_maps`](crate::apply_id_maps)).
+    pub fn serves(&self, of: &Style, other: &Style) -> bool {
+        of.has_curves() == other.has_curves()
+            && (!other.has_curves() || LineModel::is_alike_for(&self.model.parts, of, other))
+    }
+
     /// Moves surfaces and lines into the pose of a scene: the one that they were made of.
     ///
     /// # Errors
@@ -97,5 +104,31 @@ impl Subject {
         };
         let of_scene = (&self.model, LineRenderer::new(engine, lines));
         Renderer::with_lines(engine, of_scene, style, options)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use npr_stylesheet::Stated;
+
+    #[test]
+    fn a_subject_serves_styles_that_need_no_other_lines() {
+        let style = |overrides: &[&str]| {
+            let mut stated = Stated::preset("toon").expect("a preset");
+            let overrides: Vec<String> = overrides.iter().map(|text| (*text).to_owned()).collect();
+            stated.set_all(&overrides).expect("they fit");
+            stated.into_style()
+        };
+        let toon = style(&[]);
+        let subject = Subject::new(&Scene::default(), &toon).expect("nothing");
+        for (change, serves) in [
+            ("line.width.base=5", true),
+            ("shade.saturation=0.2", true),
+            ("line.paint.source=surface", false),
+            ("line.method=shape", false),
+        ] {
+            assert_eq!(subject.serves(&toon, &style(&[change])), serves, "{change}");
+        }
     }
 }

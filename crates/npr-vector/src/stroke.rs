@@ -109,10 +109,9 @@ pub struct Drawing {
 }
 
 impl Drawing {
-    /// The same drawing as that of a picture `factor` times as large, in its pixels.
-    pub fn enlarged(mut self, factor: u32) -> Self {
-        let by = f64::from(factor);
-        self.size = self.size.map(|side| side.saturating_mul(factor));
+    /// The same drawing as that of a picture `by` times as large, in its pixels.
+    pub fn scaled(mut self, by: f64) -> Self {
+        self.size = self.size.map(|side| (f64::from(side) * by).round() as u32);
         for point in self
             .strokes
             .iter_mut()

@@ -1,7 +1,7 @@
 //! How large drafts are, so that they follow the hand.
 
-/// Seconds that a draft should take: fifteen a second.
-const WANTED_S: f32 = 1.0 / 15.0;
+/// Seconds that a draft should take: twenty a second, with the frames of the window in between.
+const WANTED_S: f32 = 1.0 / 30.0;
 
 /// Smallest share of the sides of the picture.
 const LEAST: f32 = 0.125;
@@ -10,11 +10,19 @@ const LEAST: f32 = 0.125;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Pace {
     share: f32,
+    /// Seconds that drafts take whatever their size.
+    fixed_s: f32,
+    /// The share of the area of the last draft, and its seconds.
+    last: Option<[f32; 2]>,
 }
 
 impl Default for Pace {
     fn default() -> Self {
-        Self { share: 0.5 }
+        Self {
+            share: 0.5,
+            fixed_s: 0.0,
+            last: None,
+        }
     }
 }
 
@@ -24,9 +32,25 @@ impl Pace {
         full.map(|side| ((side as f32 * self.share).round() as u32).clamp(1, side.max(1)))
     }
 
-    /// Learns from a draft that took `seconds`. Time goes with the area; half of what is missing is made up at once.
+    /// Learns from a draft that took `seconds`: some of it goes with the area, the rest is always there. Half of what
+    /// is missing is made up at once. Where the rest alone takes too long, smaller drafts would be no faster, only
+    /// coarser: the area may have half of the time then.
     pub fn learn(&mut self, seconds: f32) {
-        let wanted = (WANTED_S / seconds.max(1e-3)).sqrt();
+        // Part the time by two drafts of different sizes.
+        let area = self.share * self.share;
+        if let Some([area_before, seconds_before]) = self.last {
+            let more = area - area_before;
+            if more.abs() > 0.1 * area {
+                let of_area = (seconds - seconds_before) / more * area;
+                self.fixed_s = (seconds - of_area).clamp(0.0, 0.98 * seconds);
+            }
+        }
+        self.last = Some([area, seconds]);
+
+        // Give the area the time that is left.
+        let room_s = (WANTED_S - self.fixed_s).max(0.5 * WANTED_S);
+        let of_area_s = (seconds - self.fixed_s).max(1e-3);
+        let wanted = (room_s / of_area_s).sqrt();
         let is_well = (0.85..1.3).contains(&wanted);
         if !is_well {
             self.share = (self.share * wanted.sqrt()).clamp(LEAST, 1.0);
@@ -53,5 +77,14 @@ mod tests {
         assert_eq!(after(1000.0), 125);
         assert_eq!(Pace::default().size([1, 1]), [1, 1]);
         assert_eq!(Pace::default().size([0, 0]), [1, 1]);
+    }
+    #[test]
+    fn drafts_that_are_slow_at_any_size_do_not_shrink_to_nothing() {
+        let mut pace = Pace::default();
+        for _ in 0..40 {
+            let [width, height] = pace.size([1000, 1000]);
+            pace.learn(0.2 + 0.1 * (width * height) as f32 / 1e6);
+        }
+        assert!(pace.size([1000, 1000])[0] > 300, "{pace:?}");
     }
 }

@@ -39,6 +39,13 @@ const LOOK: Duration = Duration::from_millis(500);
 /// Renderers that are kept at a time: one of drafts and one of full pictures.
 const KEPT: usize = 2;
 
+/// Views whose strokes are kept.
+const VIEWS: usize = 4;
+
+/// Seconds that strokes may take to be found in drafts that follow a camera or a figure; beyond that their lines are
+/// drawn by method `shape`.
+const STROKES_S: f32 = 0.03;
+
 /// What a painter is asked for.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Ask {
@@ -78,6 +85,10 @@ pub struct Painter {
     motion: RefCell<Option<PathBuf>>,
     /// How often a scene was opened.
     opened: Cell<u64>,
+    /// The full picture that was drawn last.
+    full: RefCell<Option<Order>>,
+    /// Seconds that its strokes took to be found, where they were.
+    strokes_s: Cell<f32>,
 }
 
 /// A renderer that is kept, with the order that it was made for and the pose that it has.
@@ -86,6 +97,10 @@ struct Kept<'a> {
     style: Style,
     renderer: Renderer<'a>,
     handed: Handed,
+    /// Whether its strokes are drawn by method `shape`.
+    is_rough: bool,
+    /// The picture whose strokes it shows, where that is another.
+    strokes_of: Option<[u32; 2]>,
 }
 
 /// A file and when it changed last; `None` where there is none.
@@ -115,6 +130,8 @@ impl Painter {
             scene_files: RefCell::default(),
             style_files: RefCell::default(),
             is_stale: Cell::new(false),
+            full: RefCell::default(),
+            strokes_s: Cell::new(0.0),
         }
     }
 
@@ -231,6 +248,7 @@ impl Painter {
                 let has_own_camera = self.args.drawing.camera.camera.is_some();
                 let cast = playbill::cast_of(&found.scene, motion.as_deref(), has_own_camera);
                 *loaded = Some(found);
+                self.full.replace(None);
                 self.motion.replace(motion);
                 self.is_stale.set(true);
                 self.opened.set(self.opened.get() + 1);
@@ -294,11 +312,14 @@ impl Painter {
             inputs: loaded.inputs.clone(),
         };
         loaded.scene.materials.clone_from(&painted);
-        let prepared = render::prepare(&job, loaded, None, &mut Progress::new(true))?;
+        let mut prepared = render::prepare(&job, loaded, None, &mut Progress::new(true))?;
+        if let Some(lines) = &mut prepared.subject.lines {
+            lines.keep_views(VIEWS);
+        }
         let limits = self.args.drawing.limits.limits();
         let mut actor = Actor::new(prepared.scene.clone(), limits);
 
-        // Draw, and go on with what the preparation serves: drafts may be of a style that is a little off.
+        // Draw, and go on with what the preparation serves: drafts may be of one that is a little off.
         let style = job.look.style.clone();
         let mut kept = VecDeque::new();
         let mut order = first.clone();
@@ -311,7 +332,7 @@ impl Painter {
             let is_same = asked.style == first.style && asked.overrides == first.overrides;
             let is_painted_so = asked.pose.face.expressions == first.pose.face.expressions
                 || of_loaded(asked).is_ok_and(|other| other == painted);
-            let serves = is_same || asked.is_draft && self.serves(&style, &path, asked);
+            let serves = is_same || self.serves((&style, &prepared), &path, asked);
             if self.is_stale.get() || !serves || !is_painted_so {
                 return Ok(next);
             }
@@ -364,16 +385,44 @@ impl Painter {
         Job::drawn_into(args, source, target, PictureFormat::Png)
     }
 
-    /// Whether drafts of an order can be drawn of a scene that was prepared for another style.
-    fn serves(&self, style: &Style, path: &Path, order: &Order) -> bool {
+    /// Whether an order can be drawn of a scene that was prepared for another style.
+    fn serves(&self, (style, prepared): (&Style, &Prepared), path: &Path, order: &Order) -> bool {
         let args = order_arguments(&self.args, path, order);
         let Ok(job) = self.job(&args) else {
             return false;
         };
         let asked = &job.look.style;
-        asked.id_map == style.id_map
+        let serves = asked.id_map == style.id_map
             && asked.smoke == style.smoke
             && asked.curve_sources().eq(style.curve_sources())
+            && (order.is_draft || prepared.subject.serves(style, asked));
+        if serves && !order.is_draft {
+            self.style_files.replace(watched(job.look.inputs()));
+        }
+        serves
+    }
+
+    /// Whether the strokes of a draft would take too long: those of another view than that of the last full picture
+    /// have to be found.
+    fn is_rough(&self, order: &Order) -> bool {
+        order.is_draft && !self.is_known(order) && self.strokes_s.get() > STROKES_S
+    }
+
+    /// Whether the last full picture shows the scene of an order as its camera does.
+    fn is_known(&self, order: &Order) -> bool {
+        let full = self.full.borrow();
+        let is_of = |full: &Order| full.viewpoint == order.viewpoint && full.pose == order.pose;
+        full.as_ref().is_some_and(is_of)
+    }
+
+    /// The picture whose strokes a draft shows: the last full one, where it has the same shape.
+    fn strokes_of(&self, order: &Order) -> Option<[u32; 2]> {
+        let full = self.full.borrow().as_ref().map(|full| full.size);
+        full.filter(|full| {
+            let [width, height] = order.size.map(f64::from);
+            let [full_width, full_height] = full.map(f64::from);
+            order.is_draft && (full_width / full_height * height - width).abs() <= 1.0
+        })
     }
 
     /// The renderer of an order's style and size: one that is kept, which is taken out, or a new one.
@@ -383,9 +432,12 @@ impl Painter {
         (args, order): (&RenderArguments, &Order),
         kept: &mut VecDeque<Kept<'a>>,
     ) -> Result<Kept<'a>, Fault> {
+        let (is_rough, strokes_of) = (self.is_rough(order), self.strokes_of(order));
         let draws = |other: &Kept<'_>| {
+            let is_alike = other.is_rough == is_rough && other.strokes_of == strokes_of;
             let other = &other.order;
-            other.size == order.size
+            is_alike
+                && other.size == order.size
                 && other.style == order.style
                 && other.overrides == order.overrides
         };
@@ -394,13 +446,19 @@ impl Painter {
             return Ok(found);
         }
         let job = self.job(args)?;
-        let style = job.look.style;
+        let mut style = job.look.style;
+        if is_rough {
+            style = style.with_shapes_for_strokes().unwrap_or(style);
+        }
         let options = RendererOptions {
             smoke: prepared.smoke.clone(),
+            strokes_of,
             ..job.options
         };
         Ok(Kept {
             order: order.clone(),
+            is_rough,
+            strokes_of,
             renderer: prepared.renderer(engine, (&style, &options))?,
             style,
             handed: Handed::default(),
@@ -451,7 +509,16 @@ impl Painter {
         let start = Instant::now();
         let scene = (engine, (prepared, &mut *actor));
         let (mut found, camera, viewpoint) = self.poised(scene, path, order, kept)?;
+        let drawn = Instant::now();
         let mut frame = found.renderer.draw(&camera)?;
+        if !order.is_draft {
+            let passes: Duration = frame.times.iter().map(|pass| pass.time).sum();
+            let strokes = drawn.elapsed().saturating_sub(passes);
+            if !self.is_known(order) {
+                self.strokes_s.set(strokes.as_secs_f32());
+            }
+            self.full.replace(Some(order.clone()));
+        }
         keep(kept, found);
         frame.notices.extend_from_slice(actor.warnings());
         self.tell(News::Picture(Box::new(Picture {

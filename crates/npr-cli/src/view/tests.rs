@@ -12,6 +12,7 @@ use tempfile::TempDir;
 
 mod endurance;
 mod films;
+mod hand;
 mod moments;
 
 /// A box on a plate.
@@ -396,4 +397,62 @@ fn a_line_that_is_pointed_at_says_what_would_remove_it() {
         (beside.line, beside.part, beside.notice),
         (None, None, None)
     );
+}
+
+#[test]
+fn what_was_found_for_one_style_is_drawn_in_the_next_as_the_command_draws_it() {
+    let mut shop = Shop::new("--backend cpu");
+    let cases: [&[&str]; 9] = [
+        &[],
+        &["line.width.base=6"],
+        &["line.width.base=6", "shade.saturation=0.4"],
+        &["line.crease_angle_deg=100"],
+        &["line.kinds.crease=false"],
+        &[
+            "line.paint.source=surface",
+            "line.paint.light.width=[1.0, 0.4]",
+        ],
+        &["line.cards=centre"],
+        &["line.method=shape"],
+        &["shade.calm=0.2", "line.split_angle_deg=60"],
+    ];
+    for viewpoint in [None, Some(aside(false))] {
+        for changes in cases {
+            let full = order(changes, viewpoint);
+            let draft = Order {
+                size: [60, 45],
+                is_draft: true,
+                ..full.clone()
+            };
+            assert_eq!(shop.picture(&draft).rgba.len(), 60 * 45 * 4);
+            let shown = shop.picture(&full);
+            let bytes = shop.drawn(&shop.desk.words(&full));
+            let drawn = encoder::png(full.size, &shown.rgba, false).expect("a picture");
+            assert!(drawn == bytes, "{changes:?}");
+        }
+    }
+}
+
+#[test]
+fn a_draft_has_the_strokes_of_the_full_picture_before() {
+    let mut shop = Shop::new("--backend cpu");
+    let ink_of = |picture: &Picture| {
+        let pixels = picture.rgba.chunks_exact(4);
+        let dark = pixels.filter(|pixel| pixel[1] < 100).count();
+        dark as f64 / f64::from(picture.order.size[0] * picture.order.size[1])
+    };
+    let full = Order {
+        style: "toon".to_owned(),
+        ..order(&["line.width.base=6px"], Some(aside(false)))
+    };
+    let draft = Order {
+        size: [60, 45],
+        is_draft: true,
+        ..full.clone()
+    };
+    let own = ink_of(&shop.picture(&draft));
+    let whole = ink_of(&shop.picture(&full));
+    let scaled = ink_of(&shop.picture(&draft));
+    assert!((scaled / whole - 1.0).abs() < 0.25, "{scaled} of {whole}");
+    assert!(own > 1.4 * whole, "{own} of {whole}");
 }

@@ -127,7 +127,7 @@ pub(crate) fn find(
         let drawing = lines.draw_curves(camera, style, of_method, &options.pictures)?;
         report.times.extend_from_slice(lines.times());
         report.notices.extend_from_slice(&drawing.notices);
-        let drawing = drawing.enlarged(options.enlarged);
+        let drawing = drawing.scaled(options.stroke_scale());
         match leaves_open {
             true => found.open = Some(drawing),
             false => found.seen.push(drawing),
@@ -151,7 +151,7 @@ pub(crate) fn point_at(
     spot: Spot,
 ) -> Result<Pointed, RenderError> {
     // Ask every method, in the pixels of its strokes.
-    let by = f64::from(options.enlarged.max(1));
+    let by = options.stroke_scale();
     let spot = Spot {
         place: spot.place.map(|at| at / by),
         reach_px: spot.reach_px / by,

@@ -1,13 +1,24 @@
 //! Cards of hair and grass, drawn by a line each where a style asks for it.
 
+use super::colors::needs_map;
 use super::model::LineModel;
 use super::welded::BYTES_PER_POLYLINE;
 use crate::error::{RenderError, check_count};
+use crate::part_info::PartInfo;
 use npr_core::budget::Budget;
 use npr_mesh::card::{LEAST_RATIO, cards, draw_by_centre};
 use npr_stylesheet::{CardLines, Style};
 
 impl LineModel {
+    /// Whether two styles give the same model of some parts: with as many beams, lines of cards and maps of textures.
+    pub(crate) fn is_alike_for(parts: &[PartInfo], one: &Style, other: &Style) -> bool {
+        let is_alike = |info: &PartInfo| {
+            info.is_beam(one) == info.is_beam(other)
+                && info.look(one).line_cards == info.look(other).line_cards
+        };
+        needs_map(one) == needs_map(other) && parts.iter().all(is_alike)
+    }
+
     /// Draws the cards of the parts for which the style asks for it by their centre lines from now on, or as one mass.
     ///
     /// # Errors

@@ -8,6 +8,7 @@ use super::finder::{Finder, OnProcessor};
 use super::options::{LineModelOptions, LineOptions};
 use super::paint::Paint;
 use super::prepared::PreparedOnDemand;
+use super::recent::RecentViews;
 use super::smoke::SmokeView;
 use super::stroke_contrast::StrokeContrast;
 use super::texture_map::TextureMap;
@@ -94,6 +95,7 @@ pub struct LineModel {
     pub(super) cache: Cache,
     /// What was prepared last, for views to come.
     pub(super) prepared: Mutex<Option<(PreparedKey, Arc<Prepared>)>>,
+    pub(super) recent: RecentViews,
     pub(super) bends: OnceLock<ShapeBends>,
     /// Where textures lie, for lines that take their colour from there.
     pub(super) map: Option<TextureMap>,
@@ -215,6 +217,7 @@ impl LineModel {
             memory_limit: u64::MAX,
             cache: Cache::default(),
             prepared: Mutex::new(None),
+            recent: RecentViews::default(),
             bends: OnceLock::new(),
             map: None,
             pictures: BTreeMap::new(),
@@ -307,6 +310,11 @@ impl LineModel {
     /// Gives the pictures that styles name in `line.paint.image` and `line.brush.image`, by these names.
     pub fn set_pictures(&mut self, pictures: BTreeMap<String, Picture>) {
         self.pictures = pictures;
+    }
+
+    /// Keeps what is seen in the last `count` views, which drawings of them in another look then need not find anew.
+    pub fn keep_views(&mut self, count: usize) {
+        self.recent = RecentViews::of(count);
     }
 
     /// Draws smoke with the scene from now on, or none.
@@ -446,6 +454,7 @@ impl LineModel {
             colors: colors.as_ref(),
             changes: stroke_contrast.is_some(),
             is_open,
+            recent: &self.recent,
         };
         let surfaces = &self.shape.surfaces;
         let paint = Paint::new((&self.parts, surfaces), style, has_lines);

@@ -66,6 +66,7 @@ impl LineModel {
 
         // Forget what was made of the pose before.
         self.prepared = Mutex::new(None);
+        self.recent = self.recent.emptied();
         self.bends = OnceLock::new();
         self.cache = Cache::of(None);
         Ok(())
@@ -90,6 +91,7 @@ impl LineModel {
             memory_limit: self.memory_limit,
             cache: self.cache.clone(),
             prepared: Mutex::new(None),
+            recent: self.recent.emptied(),
             bends: OnceLock::new(),
             map: self.map.clone(),
             pictures: self.pictures.clone(),

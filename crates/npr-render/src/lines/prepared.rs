@@ -25,7 +25,7 @@ impl<'a> PreparedOnDemand<'a> {
     }
 
     /// What is prepared, from here on.
-    pub fn get(&self) -> Result<&Prepared, RenderError> {
+    pub fn get(&self) -> Result<&Arc<Prepared>, RenderError> {
         if let Some(made) = self.made.get() {
             return Ok(made);
         }

@@ -1,6 +1,7 @@
 //! What a camera sees of a line model, before visibility.
 
 use super::colors::StrokeColors;
+use super::recent::{RecentViews, ViewKey};
 use super::texture_map::TextureMap;
 use crate::error::RenderError;
 use crate::placement::Bounds;
@@ -9,10 +10,11 @@ use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_vector::mesh_lines::JointsInView;
 use npr_vector::mesh_lines::contour::EdgeContours;
 use npr_vector::mesh_lines::draw::{
-    LineSettings, Prepared, StrokeLook, ViewStrokes, spines, strokes_with,
+    LineSettings, Prepared, StrokeLook, ViewStrokes, runs_with, spines,
 };
 use npr_vector::mesh_lines::puff::SmokeLines;
 use npr_vector::project::Projector;
+use std::sync::Arc;
 
 /// A camera, and what it sees before visibility.
 pub(super) struct LineView<'a> {
@@ -32,13 +34,15 @@ pub(super) struct LineView<'a> {
     pub changes: bool,
     /// Whether it is left open what is seen of lines.
     pub is_open: bool,
+    /// The lines of views before.
+    pub recent: &'a RecentViews,
 }
 
 impl LineView<'_> {
     /// The strokes of lines on the mesh, and of smoke; joints hold to those of the frame before, if there is one.
     pub fn of_mesh(
         &self,
-        prepared: &Prepared,
+        prepared: &Arc<Prepared>,
         settings: &LineSettings,
         look: &StrokeLook<'_>,
         held: Option<JointsInView<'_>>,
@@ -48,16 +52,29 @@ impl LineView<'_> {
             let found = spines(shape, prepared, self.projector, settings, contours, look);
             return Ok(found?);
         }
-        let found = strokes_with(
-            self.shape,
-            prepared,
-            self.projector,
-            settings,
-            self.contours,
-            look,
-            (self.smoke, held),
-        );
-        Ok(found?)
+        let find = |held: Option<JointsInView<'_>>| {
+            runs_with(
+                self.shape,
+                prepared,
+                self.projector,
+                settings,
+                self.contours,
+                (self.smoke, held),
+            )
+        };
+
+        // What smoke hides, and what holds to the frame before, is found anew every time.
+        let found = if self.smoke.is_some() || held.is_some() {
+            find(held)?
+        } else {
+            let key = ViewKey {
+                projector: *self.projector,
+                settings: settings.clone(),
+                prepared: Arc::clone(prepared),
+            };
+            self.recent.runs(key, || find(None))?
+        };
+        Ok(found.strokes(self.shape, self.projector, look))
     }
 }
 

@@ -11,6 +11,7 @@ mod prepared;
 mod spines;
 mod stretches;
 mod view;
+mod view_runs;
 
 pub use crate::mesh_lines::line_settings::{LineSettings, LineSource};
 pub(crate) use calm::calmed;
@@ -18,6 +19,7 @@ pub(crate) use paint::strokes_of;
 pub use paint::{PaintAt, PointPaint, StrokeLook};
 pub use prepared::{FindCrossings, Prepared};
 pub use spines::spines;
+pub use view_runs::ViewRuns;
 
 use crate::mesh_lines::contour::{EdgeContours, Eye};
 use crate::mesh_lines::joints::JointsInView;
@@ -30,7 +32,6 @@ use crate::stroke::Stroke;
 use npr_core::budget::OverBudget;
 use npr_core::line_kind::KindSet;
 use npr_mesh::half_edge::HalfEdgeMesh;
-use paint::painted;
 use rayon::prelude::*;
 use view::{Toll, View};
 
@@ -108,6 +109,31 @@ pub fn strokes_with(
     look: &StrokeLook<'_>,
     (smoke, held): (Option<&SmokeLines<'_>>, Option<JointsInView<'_>>),
 ) -> Result<ViewStrokes, OverBudget> {
+    let found = runs_with(
+        shape,
+        prepared,
+        projector,
+        settings,
+        contours,
+        (smoke, held),
+    )?;
+    Ok(found.strokes(shape, projector, look))
+}
+
+/// As [`strokes_with`], before the lines have widths and colours: nearly all of the time goes into this, and the look
+/// of a drawing has no part in it.
+///
+/// # Errors
+///
+/// As [`strokes_with`].
+pub fn runs_with(
+    shape: &HalfEdgeMesh,
+    prepared: &Prepared,
+    projector: &Projector,
+    settings: &LineSettings,
+    contours: &EdgeContours,
+    (smoke, held): (Option<&SmokeLines<'_>>, Option<JointsInView<'_>>),
+) -> Result<ViewRuns, OverBudget> {
     let EdgeContours {
         front,
         graph: edge_contours,
@@ -182,19 +208,18 @@ pub fn strokes_with(
         found.extend(runs(shape, projector, graph, (&lines, settings.hidden)));
     }
 
-    // Make strokes, with the outline of smoke after them.
-    let lens = projector.lens();
-    let mut strokes = painted(calmed(found, settings, lens, held), shape, look, lens);
-    if let Some(smoke) = smoke {
+    // Join and smooth them, and add the outline of smoke.
+    let runs = calmed(found, settings, projector.lens(), held);
+    let of_smoke = smoke.map(|smoke| {
         let seen = Seen {
             extra: None,
             ..seen
         };
-        strokes.extend(smoke.strokes(&seen, settings));
-    }
-    strokes.sort_by_key(|stroke| stroke.occluders > 0);
-    Ok(ViewStrokes {
-        strokes,
+        smoke.strokes(&seen, settings)
+    });
+    Ok(ViewRuns {
+        runs,
+        of_smoke: of_smoke.unwrap_or_default(),
         left_out: toll.left_out,
     })
 }
