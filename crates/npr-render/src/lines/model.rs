@@ -97,6 +97,8 @@ pub struct LineModel {
     pub(super) bends: OnceLock<ShapeBends>,
     /// Where textures lie, for lines that take their colour from there.
     pub(super) map: Option<TextureMap>,
+    /// What regions of each surface multiply their base colour by; empty where that is nothing.
+    pub(super) fill_lights: Vec<[f32; 3]>,
     /// Pictures of styles, by name.
     pub(super) pictures: BTreeMap<String, Picture>,
 }
@@ -152,10 +154,14 @@ impl LineModel {
     ) -> Result<Self, RenderError> {
         let assembly = Assembly::new(scene, Some(style));
         let mut model = Self::of_assembly(scene, &assembly, options, folder)?;
-        if options.painted || colors::needs_map(style) {
+        let keeps_map = options.painted || colors::needs_map(style);
+        if keeps_map || options.fills {
             let mut map = TextureMap::new(scene, &assembly, &model.shape);
             model.notices.extend(map.notice.take());
-            model.map = Some(map);
+            if options.fills {
+                model.fill_lights = map.mean_lights(&model.shape);
+            }
+            model.map = keeps_map.then_some(map);
         }
         model.draw_cards(style)?;
         model.note_card_offsets();
@@ -217,6 +223,7 @@ impl LineModel {
             prepared: Mutex::new(None),
             bends: OnceLock::new(),
             map: None,
+            fill_lights: Vec::new(),
             pictures: BTreeMap::new(),
             shape,
         }
@@ -448,7 +455,11 @@ impl LineModel {
             is_open,
         };
         let surfaces = &self.shape.surfaces;
-        let paint = Paint::new((&self.parts, surfaces), style, has_lines);
+        let paint = Paint::new((&self.parts, surfaces), style, has_lines).filled(
+            &self.fill_lights,
+            &self.parts,
+            style,
+        );
         let mut held = held.map(|held| held.of(options.method));
         let known = held
             .as_ref()

@@ -92,6 +92,7 @@ impl LineModel {
             prepared: Mutex::new(None),
             bends: OnceLock::new(),
             map: self.map.clone(),
+            fill_lights: self.fill_lights.clone(),
             pictures: self.pictures.clone(),
         }
     }
