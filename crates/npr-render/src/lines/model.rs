@@ -500,6 +500,7 @@ impl LineModel {
         if let Some(movement) = movement.filter(|_| !options.method.is_of_pixels()) {
             let view = (camera, style, options.size);
             self.smear(&mut strokes, (movement, &projector), view);
+            watch(WidthStep::Motion, &strokes);
         }
         let manners = StrokeManners::new(&self.parts, style);
         let manner_of = |stroke: &Stroke| {
