@@ -18,7 +18,7 @@ use npr_core::geometry::Part;
 use npr_drawing::artwork::{ArtworkOptions, Hidden, Page, Paths, arrange};
 use npr_render::{Drawing, Kind, KindSet, Lettering, LineOptions, PaintedLines, RendererOptions};
 use npr_scene::Limits;
-use npr_stylesheet::{Background, Facts, LineForm, LineOutput, Occasion, Style};
+use npr_stylesheet::{Background, Facts, LineForm, LineOutput, Occasion, ShadeMode, Style};
 use std::path::{Path, PathBuf};
 
 const MM_PER_INCH: f64 = 25.4;
@@ -81,6 +81,7 @@ impl<'a> LineJob<'a> {
                 // Id maps are placed as the textures of a part, which are known only where images are decoded.
                 decode_images: contrast
                     || args.lines.painted.is_some()
+                    || fills_by_textures(args, &look.style)
                     || !look.style.id_map.is_empty()
                     || look.style.line_paint_flags() & Part::LINE_SURFACE != 0,
                 ..args.drawing.limits.limits()
@@ -95,6 +96,12 @@ impl<'a> LineJob<'a> {
             args,
         })
     }
+}
+
+/// Whether regions of colour are drawn that textures have a part in.
+pub fn fills_by_textures(args: &LinesArguments, style: &Style) -> bool {
+    let shows = style.shade.use_textures && style.shade.mode != ShadeMode::Paper;
+    args.lines.fill && shows
 }
 
 impl LineJob<'_> {

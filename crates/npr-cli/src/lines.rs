@@ -9,7 +9,7 @@ use crate::engine::{Drawn, EngineChoice};
 use crate::fault::{Exit, Fault};
 use crate::idle;
 use crate::line_file::{self, Ink};
-use crate::line_job::LineJob;
+use crate::line_job::{LineJob, fills_by_textures};
 use crate::look::Look;
 use crate::message;
 use crate::pose::{self, Posed};
@@ -291,6 +291,7 @@ fn prepared(job: &LineJob<'_>, scene: Scene, smoke: Option<Smoke>) -> Result<Pre
         weld: job.args.lines.weld,
         memory_limit: job.limits.memory_bytes,
         painted: job.options.painted.is_some(),
+        fills: fills_by_textures(job.args, &job.look.style),
     };
     let (style, cache) = (&job.look.style, job.cache.as_deref());
     let mut model = LineModel::for_style(&scene, style, &options, cache)?;

@@ -261,6 +261,67 @@ fn lines_lag_behind_on_the_trailing_side() {
     );
 }
 
+/// Of a ball that goes 28.8 pixels a shutter, and a tenth of the picture's height is 18 and more.
+#[test]
+fn lines_swell_with_their_speed() {
+    let widths = |keys: &[&str], way: fn(f32) -> [f32; 3]| {
+        let own = ["motion.follow=0", "line.width.source=constant"];
+        let style = following(&[&own, keys].concat());
+        let drawing = drawing(&style, way);
+        let mut widths = [f64::MAX, 0.0];
+        for stroke in &drawing.strokes {
+            let surface = &drawing.surfaces[stroke.surface as usize];
+            if surface.object == "Ball" && stroke.is_visible() {
+                for point in &stroke.points {
+                    widths = [widths[0].min(point.width), widths[1].max(point.width)];
+                }
+            }
+        }
+        widths
+    };
+    let plain = widths(&["motion.swell=0"], from_the_left);
+    let is_near = |[a, b]: [f64; 2], by: f64| {
+        (a - by * plain[0]).abs() < 1e-3 * a && (b - by * plain[1]).abs() < 1e-3 * b
+    };
+    assert!(is_near(widths(&["motion.swell=1"], from_the_left), 2.0));
+    assert!(is_near(widths(&["motion.swell=-0.5"], from_the_left), 0.5));
+    assert!(is_near(widths(&["motion.swell=1"], still), 1.0));
+    // A quarter of the shutter is a quarter of the way, 7.2 pixels.
+    let slow = widths(&["motion.swell=1", "motion.shutter=0.0625"], from_the_left);
+    let share = 7.2 / (0.1 * f64::from(SIZE[1]));
+    assert!(share < 0.5, "{share}");
+    let off = (slow[1] / plain[1] - 1.0 - share).abs();
+    assert!(off < 0.01, "{slow:?} of {plain:?}, not by {share}");
+}
+
+/// Frames have it on both engines.
+#[test]
+fn strokes_of_frames_swell_alike() {
+    let ink = |engine: &dyn Engine, swell: &str| {
+        let keys = [
+            "motion.follow=0",
+            "line.method='strokes'",
+            "line.width.base=2px",
+            "line.width.source=constant",
+            swell,
+        ];
+        let style = following(&keys);
+        let (scene, movement) = moved(&style, from_the_left);
+        let subject = Subject::new(&scene, &style).unwrap();
+        let options = RendererOptions::new(SIZE);
+        let mut renderer = subject.renderer(engine, &style, &options).unwrap();
+        renderer.set_movement(movement);
+        let frame = renderer.draw(&front()).unwrap();
+        let all = (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| [x, y]));
+        all.filter(|[x, y]| pixel(&frame, *x, *y)[0] < 100).count()
+    };
+    let [plain, wide] = ["motion.swell=0", "motion.swell=2"].map(|swell| ink(&Processor, swell));
+    assert!(wide > 3 * plain / 2, "{plain} {wide}");
+    if let Some(device) = device() {
+        assert!(ink(device, "motion.swell=2").abs_diff(wide) < 8);
+    }
+}
+
 #[test]
 fn frames_have_the_lag_of_files() {
     // The leftmost column that has ink of the ball's outline, in a frame of strokes and in a file.

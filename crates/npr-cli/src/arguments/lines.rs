@@ -72,7 +72,8 @@ pub struct LineArguments {
     /// Whether strokes are smoothed, their ends joined, and what is too short to read left out.
     #[arg(long, value_enum, default_value_t)]
     pub smooth: Switch,
-    /// Fill visible surfaces with flat colour; smoke alone is filled in any case, but for centrelines.
+    /// Fill visible surfaces with flat colour, one for each object and material: its base colour, with the mean of its
+    /// texture where the style shows textures. Smoke alone is filled in any case, but for centrelines.
     #[arg(long)]
     pub fill: bool,
     /// Make strokes of lines painted in textures too, up to 8 pixels wide, as marked lines; alone it means dark ones.

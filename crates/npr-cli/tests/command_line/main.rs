@@ -11,6 +11,7 @@ mod farm;
 mod ffmpeg;
 mod figures;
 mod files;
+mod flat_colors;
 mod hold;
 mod id_maps;
 mod idle;

@@ -83,6 +83,7 @@ pub(crate) fn sample_room(
         (style.has_tufts(), "tufts"),
         (!style.line.guides.is_empty(), "guides"),
         (style.motion.smear > 0.0, "motion.smear"),
+        (style.motion.swell != 0.0, "motion.swell"),
         (options.layers, "layers"),
         (is_tiled, "tiles"),
     ];

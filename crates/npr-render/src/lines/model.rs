@@ -99,6 +99,8 @@ pub struct LineModel {
     pub(super) bends: OnceLock<ShapeBends>,
     /// Where textures lie, for lines that take their colour from there.
     pub(super) map: Option<TextureMap>,
+    /// What regions of each surface multiply their base colour by; empty where that is nothing.
+    pub(super) fill_lights: Vec<[f32; 3]>,
     /// Pictures of styles, by name.
     pub(super) pictures: BTreeMap<String, Picture>,
 }
@@ -154,10 +156,14 @@ impl LineModel {
     ) -> Result<Self, RenderError> {
         let assembly = Assembly::new(scene, Some(style));
         let mut model = Self::of_assembly(scene, &assembly, options, folder)?;
-        if options.painted || colors::needs_map(style) {
+        let keeps_map = options.painted || colors::needs_map(style);
+        if keeps_map || options.fills {
             let mut map = TextureMap::new(scene, &assembly, &model.shape);
             model.notices.extend(map.notice.take());
-            model.map = Some(map);
+            if options.fills {
+                model.fill_lights = map.mean_lights(&model.shape);
+            }
+            model.map = keeps_map.then_some(map);
         }
         model.draw_cards(style)?;
         model.note_card_offsets();
@@ -220,6 +226,7 @@ impl LineModel {
             recent: RecentViews::default(),
             bends: OnceLock::new(),
             map: None,
+            fill_lights: Vec::new(),
             pictures: BTreeMap::new(),
             shape,
         }
@@ -457,7 +464,11 @@ impl LineModel {
             recent: &self.recent,
         };
         let surfaces = &self.shape.surfaces;
-        let paint = Paint::new((&self.parts, surfaces), style, has_lines);
+        let paint = Paint::new((&self.parts, surfaces), style, has_lines).filled(
+            &self.fill_lights,
+            &self.parts,
+            style,
+        );
         let mut held = held.map(|held| held.of(options.method));
         let known = held
             .as_ref()
@@ -498,6 +509,7 @@ impl LineModel {
         if let Some(movement) = movement.filter(|_| !options.method.is_of_pixels()) {
             let view = (camera, style, options.size);
             self.smear(&mut strokes, (movement, &projector), view);
+            watch(WidthStep::Motion, &strokes);
         }
         let manners = StrokeManners::new(&self.parts, style);
         let manner_of = |stroke: &Stroke| {

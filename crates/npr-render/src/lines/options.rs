@@ -22,6 +22,10 @@ pub struct LineModelOptions {
     /// The scene's images have to be there, and [`LineModel::for_style`](super::LineModel::for_style) to make the
     /// model.
     pub painted: bool,
+    /// Whether regions of drawings take the mean colours of textures; default false, and they have base colours alone.
+    ///
+    /// As for `painted`, the scene's images have to be there.
+    pub fills: bool,
 }
 
 impl Default for LineModelOptions {
@@ -30,6 +34,7 @@ impl Default for LineModelOptions {
             weld: 0.0,
             memory_limit: 4 << 30,
             painted: false,
+            fills: false,
         }
     }
 }

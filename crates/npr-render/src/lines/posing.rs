@@ -94,6 +94,7 @@ impl LineModel {
             recent: self.recent.emptied(),
             bends: OnceLock::new(),
             map: self.map.clone(),
+            fill_lights: self.fill_lights.clone(),
             pictures: self.pictures.clone(),
         }
     }

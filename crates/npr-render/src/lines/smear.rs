@@ -1,4 +1,5 @@
-//! Lines that lag behind what moves: strokes are drawn out towards where their surface was.
+//! Lines that follow motion: strokes are drawn out towards where their surface was, and are wider or thinner where it
+//! is fast.
 
 use super::model::LineModel;
 use super::welded::Posables;
@@ -15,6 +16,9 @@ use rayon::prelude::*;
 /// Farthest that a point lags behind, as a share of the picture's height: what would lag farther leapt, and stays.
 const FARTHEST_SHARE: f64 = 0.5;
 
+/// Way in the picture at which widths have swelled by all that a style says, as a share of the picture's height.
+const FULL_SHARE: f64 = 0.1;
+
 /// How far along a stroke it comes to lag, as a share of the picture's height.
 const EASE_SHARE: f64 = 0.02;
 
@@ -22,7 +26,8 @@ const EASE_SHARE: f64 = 0.02;
 const BESIDE_CELLS: [f64; 2] = [3.0, 8.0];
 
 impl LineModel {
-    /// Lets strokes lag behind what moves, as far as a style says so, in a picture of `size` pixels.
+    /// Lets strokes swell with their speed and lag behind what moves, as far as a style says so, in a picture of `size`
+    /// pixels.
     pub(super) fn smear(
         &self,
         strokes: &mut [Stroke],
@@ -33,6 +38,12 @@ impl LineModel {
         let Some(smear) = Smear::new(of_shape, movement, style, size[1]) else {
             return;
         };
+        if style.motion.swell != 0.0 {
+            smear.swell(strokes, projector, style.motion.swell.into());
+        }
+        if style.motion.smear <= 0.0 {
+            return;
+        }
         let is_moving = movement.is_moving();
         let view = camera.view(size, movement.bounds());
         let seen = Seen::new((movement, &is_moving), style, &view, size);
@@ -43,8 +54,10 @@ impl LineModel {
 /// How strokes of a shape lag behind.
 struct Smear<'a> {
     shape: &'a HalfEdgeMesh,
-    /// From every vertex to where it was one shutter before, times the style's share; in the world.
+    /// From every vertex to where it was one shutter before, in the world.
     back: Vec<Vec3>,
+    /// How many of these ways lines lag behind.
+    ways: f64,
     /// Normals of the vertices, of any length.
     normals: Vec<Vec3>,
     /// Height of the picture.
@@ -64,7 +77,7 @@ impl<'a> Smear<'a> {
         let motion = &style.motion;
         let before = movement.places_before(motion.shutter);
         let count: usize = posables.vertex_counts.iter().sum();
-        if motion.smear <= 0.0 || before.len() != count {
+        if (motion.smear <= 0.0 && motion.swell == 0.0) || before.len() != count {
             return None;
         }
         let mut back = vec![Vec3::ZERO; shape.positions.len()];
@@ -73,7 +86,7 @@ impl<'a> Smear<'a> {
             for (vertex, stored) in mesh.vertices() {
                 let stored = first + stored as usize;
                 let [from, to] = [movement.now()[stored], before[stored]].map(Vec3::from);
-                back[vertex] = (to - from) * motion.smear;
+                back[vertex] = to - from;
             }
             first += count;
         }
@@ -90,6 +103,7 @@ impl<'a> Smear<'a> {
         Some(Self {
             shape,
             back,
+            ways: motion.smear.into(),
             normals,
             height_px: f64::from(height_px),
         })
@@ -121,6 +135,43 @@ impl<'a> Smear<'a> {
         });
     }
 
+    /// Scales the widths of points by how far they came in the picture: all of `swell` from [`FULL_SHARE`] on. O(points),
+    /// parallel.
+    pub fn swell(&self, strokes: &mut [Stroke], projector: &Projector, swell: f64) {
+        strokes.par_iter_mut().for_each(|stroke| {
+            for point in &mut stroke.points {
+                let way_px = self.way(point, projector).unwrap_or(0.0);
+                let share = (way_px / (FULL_SHARE * self.height_px)).min(1.0);
+                point.width *= (1.0 + swell * share).max(0.0);
+            }
+        });
+    }
+
+    /// How far a point came in the picture within one shutter, in pixels.
+    fn way(&self, point: &StrokePoint, projector: &Projector) -> Option<f64> {
+        if point.location.is_nowhere() {
+            return None;
+        }
+        let world = Vec3::from(point.world).as_dvec3();
+        let before = world + self.mean(&self.back, point);
+        if projector.depth(before) <= projector.near() {
+            return None;
+        }
+        let [from, to] = [world, before].map(|world| projector.project(world));
+        let way = (to[0] - from[0]).hypot(to[1] - from[1]);
+        way.is_finite().then_some(way)
+    }
+
+    /// What vertices have, at the place of a point on its surface.
+    fn mean(&self, of: &[Vec3], point: &StrokePoint) -> DVec3 {
+        let world = Vec3::from(point.world).as_dvec3();
+        let (vertices, shares) = point.location.place(self.shape, world);
+        let sum = vertices.iter().zip(shares);
+        sum.fold(DVec3::ZERO, |sum, (v, share)| {
+            sum + of[*v as usize].as_dvec3() * share
+        })
+    }
+
     /// How far a point may lag behind in the picture, in pixels, whatever is there.
     fn lag(&self, point: &StrokePoint, projector: &Projector) -> Option<[f64; 2]> {
         // Find the way back of its place on the surface, and how much of it counts.
@@ -128,15 +179,9 @@ impl<'a> Smear<'a> {
             return None;
         }
         let world = Vec3::from(point.world).as_dvec3();
-        let (vertices, shares) = point.location.place(self.shape, world);
-        let mean = |of: &[Vec3]| {
-            let sum = vertices.iter().zip(shares);
-            sum.fold(DVec3::ZERO, |sum, (v, share)| {
-                sum + of[*v as usize].as_dvec3() * share
-            })
-        };
-        let back = mean(&self.back);
-        let turned = mean(&self.normals)
+        let back = self.mean(&self.back, point) * self.ways;
+        let turned = self
+            .mean(&self.normals, point)
             .try_normalize()?
             .dot(back.try_normalize()?);
         let share = 0.5 * (1.0 + turned);

@@ -4,8 +4,9 @@ use super::assembly::{Assembly, place_key};
 use crate::instance::placed_uv;
 use crate::textures::Textures;
 use crate::textures::base_color_texture;
+use glam::{Vec2, Vec3};
 use npr_core::geometry::NONE;
-use npr_core::texture::TextureStore;
+use npr_core::texture::{self, TextureStore};
 use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_scene::{Mesh, Scene};
 
@@ -76,6 +77,36 @@ impl TextureMap {
             textures: textures.store,
             notice: textures.notice,
         }
+    }
+
+    /// The mean light of the texture on each surface, by the area of its faces; white where it has none. O(faces).
+    pub fn mean_lights(&self, shape: &HalfEdgeMesh) -> Vec<[f32; 3]> {
+        // Add up the middles of faces.
+        let mut sums = vec![[0.0_f64; 4]; self.starts.len()];
+        for (face, corners) in shape.faces.iter().enumerate() {
+            let surface = shape.face_surfaces[face] as usize;
+            let start = self.starts.get(surface).copied().unwrap_or(NONE);
+            let Some(uvs) = self.corners(face as u32).filter(|_| start != NONE) else {
+                continue;
+            };
+            let [a, b, c] = corners.map(|v| Vec3::from(shape.positions[v as usize]));
+            let area = f64::from((b - a).cross(c - a).length());
+            let [a, b, c] = uvs.map(Vec2::from);
+            let footprint = (b - a).perp_dot(c - a).abs().sqrt();
+            let middle = ((a + b + c) / 3.0).to_array();
+            let light = texture::sample(self.textures.words(), start, middle, footprint);
+            for k in 0..3 {
+                sums[surface][k] += f64::from(light[k]) * area;
+            }
+            sums[surface][3] += area;
+        }
+
+        // Divide by their area.
+        let mean = |[r, g, b, area]: [f64; 4]| match area > 0.0 {
+            true => [r, g, b].map(|sum| (sum / area) as f32),
+            false => [1.0; 3],
+        };
+        sums.into_iter().map(mean).collect()
     }
 
     /// Texture coordinates at the corners of a face.

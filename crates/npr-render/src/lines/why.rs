@@ -31,6 +31,8 @@ pub(crate) enum WidthStep {
     Source,
     /// The factor of the part.
     Part,
+    /// How fast a clip moves it.
+    Motion,
     /// Pressure along strokes, and over depth.
     Pressure,
     /// Room between lines that lie side by side.

@@ -278,6 +278,7 @@ impl Facts<'_> {
                 "the part's own factor".to_owned(),
                 self.decided("line.width_factor").key,
             ),
+            WidthStep::Motion => ("how fast it moves".to_owned(), "motion.swell".to_owned()),
             WidthStep::Pressure => {
                 let along = self.decided("line.width.pressure");
                 let over_depth = !self.style.line.width.depth.curve.is_empty();

@@ -189,7 +189,12 @@ pub(super) const ENTRIES: &[Entry] = &[
         "no light throws shadows",
     ),
     entry(
-        &["motion.follow", "motion.smear", "motion.ghosts"],
+        &[
+            "motion.follow",
+            "motion.smear",
+            "motion.swell",
+            "motion.ghosts",
+        ],
         |c| !c.on.scene.clips,
         "the scene has no clips",
     ),
@@ -199,9 +204,14 @@ pub(super) const ENTRIES: &[Entry] = &[
         "lines that are found on pixels do not lag behind",
     ),
     entry(
+        &["motion.swell"],
+        |c| c.traces_pixels(),
+        "lines that are found on pixels have no width by motion",
+    ),
+    entry(
         &["motion.shutter"],
         |c| !c.on.scene.clips || c.style.moments_s().is_empty(),
-        "nothing follows motion: motion.follow, smear and ghosts are 0, or the scene has no clips",
+        "nothing follows motion: motion.follow, smear, swell and ghosts are 0, or the scene has no clips",
     ),
     entry(
         &["motion.least"],
