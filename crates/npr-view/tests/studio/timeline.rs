@@ -318,6 +318,10 @@ fn films_are_taken_of_what_plays_and_of_a_turn() {
     assert!(harness.query_by_label("Cancel").is_none());
 
     // A turn around the moment that is shown.
+    harness.get_by_label("To the start").click();
+    harness.run_steps(2);
+    harness.key_press(Key::ArrowRight);
+    harness.run_steps(2);
     harness.get_by_label("Film").click();
     harness.run_steps(3);
     harness.get_by_label("what plays").click();
