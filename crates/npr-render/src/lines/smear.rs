@@ -135,8 +135,8 @@ impl<'a> Smear<'a> {
         });
     }
 
-    /// Scales the widths of points by how far they came in the picture: all of `swell` from [`FULL_SHARE`] on. O(points),
-    /// parallel.
+    /// Scales the widths of points by how far they came in the picture: all of `swell` from [`FULL_SHARE`] on.
+    /// O(points), parallel.
     pub fn swell(&self, strokes: &mut [Stroke], projector: &Projector, swell: f64) {
         strokes.par_iter_mut().for_each(|stroke| {
             for point in &mut stroke.points {
