@@ -1,7 +1,7 @@
 //! Where materials have holes.
 
-use crate::id_map::middles;
 use crate::instance::placed_uv;
+use crate::spots::middles;
 use crate::textures::packed_wrap;
 use npr_core::texture::texel_at;
 use npr_scene::{AlphaMode, Image, Material, Part, Scene};
@@ -151,7 +151,13 @@ mod tests {
     #[test]
     fn leaves_on_a_card_are_cut_out_and_glass_is_there_or_not() {
         let mut random = Random::new(3);
-        let leaf = |x: u32, y: u32| if (x / 5 + y / 7) % 3 == 0 { 255 } else { 0 };
+        let leaf = |x: u32, y: u32| {
+            if (x / 5 + y / 7).is_multiple_of(3) {
+                255
+            } else {
+                0
+            }
+        };
         assert_eq!(cutoff(&pane(1.0, leaf)), Some(0.5));
         let mut grain = |least: usize, most: usize| least + random.below(most - least);
         let thin: Vec<u8> = (0..SIDE * SIDE).map(|_| grain(30, 180) as u8).collect();

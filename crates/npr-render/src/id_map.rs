@@ -3,6 +3,7 @@
 use crate::error::RenderError;
 use crate::instance::placed_uv;
 use crate::options::Picture;
+use crate::spots::middles;
 use crate::textures::packed_wrap;
 use glam::Vec3;
 use npr_core::geometry::NONE;
@@ -404,18 +405,4 @@ fn rows_of([a, b, c]: [[f32; 2]; 3], size: [u32; 2]) -> u32 {
     };
     let longest = texels(a, b).max(texels(b, c)).max(texels(c, a));
     ((longest * ROWS_MAX as f32).ceil() as u32).clamp(1, ROWS_MAX)
-}
-
-/// The middles of the `rows * rows` equal triangles that one is cut into by lines along its sides.
-pub(crate) fn middles([a, b, c]: [[f32; 2]; 3], rows: u32) -> impl Iterator<Item = [f32; 2]> {
-    let thirds = (rows * 3) as f32;
-    let middle = move |along: u32, up: u32| {
-        let (s, t) = (along as f32 / thirds, up as f32 / thirds);
-        std::array::from_fn(|i| a[i] + (b[i] - a[i]) * s + (c[i] - a[i]) * t)
-    };
-    (0..rows).flat_map(move |up| {
-        let upright = (0..rows - up).map(move |along| middle(3 * along + 1, 3 * up + 1));
-        let turned = (0..rows - up - 1).map(move |along| middle(3 * along + 2, 3 * up + 2));
-        upright.chain(turned)
-    })
 }

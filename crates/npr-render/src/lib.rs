@@ -65,6 +65,7 @@ mod renderer;
 mod sequence;
 mod sky;
 mod smoke;
+mod spots;
 mod stage;
 mod subject;
 mod surfaces;

@@ -199,7 +199,7 @@ pub(crate) fn at_stage(
             ..line_options(style, options)
         };
         let drawing = lines.found_curves(camera, style, &of_method, &options.pictures)?;
-        drawings.push(drawing.enlarged(options.enlarged));
+        drawings.push(drawing.scaled(options.stroke_scale()));
     }
     Ok(drawings)
 }
