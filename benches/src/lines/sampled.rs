@@ -68,6 +68,7 @@ pub fn sampled_drawing(
         width_at: &|_| 1.0,
         paint_at: None,
         is_lit: false,
+        follows_bends: false,
     };
     let found = spines(shape, &prepared, &projector, &settings, &contours, &look);
     let open = Drawing {

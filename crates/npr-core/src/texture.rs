@@ -4,6 +4,7 @@
 //! [`HEADER_WORDS`] words followed by its MIP levels, each a row-major array of sRGB bytes with straight alpha.
 
 use crate::color;
+use std::sync::Arc;
 
 /// Words before a texture's first texel: width, height, levels, horizontal wrap, vertical wrap, unused.
 pub const HEADER_WORDS: u32 = 6;
@@ -20,10 +21,10 @@ pub enum Wrap {
     Mirror,
 }
 
-/// All textures of a scene, packed.
+/// All textures of a scene, packed. A clone shares the words until one of the two adds to them.
 #[derive(Debug, Clone)]
 pub struct TextureStore {
-    words: Vec<u32>,
+    words: Arc<Vec<u32>>,
 }
 
 impl Default for TextureStore {
@@ -37,13 +38,23 @@ impl TextureStore {
     pub fn new() -> Self {
         let table = (0..=255).map(|byte| color::linear_from_byte(byte).to_bits());
         Self {
-            words: table.collect(),
+            words: Arc::new(table.collect()),
         }
     }
 
     /// The packed words, as passes read them.
     pub fn words(&self) -> &[u32] {
         &self.words
+    }
+
+    /// The same, for readers that keep them.
+    pub fn shared_words(&self) -> &Arc<Vec<u32>> {
+        &self.words
+    }
+
+    /// Words that can be added to.
+    fn own_words(&mut self) -> &mut Vec<u32> {
+        Arc::make_mut(&mut self.words)
     }
 
     /// Adds a texture of `size` pixels, sRGB bytes with straight alpha, row by row from the top, and all its MIP
@@ -60,7 +71,7 @@ impl TextureStore {
         // Write the header.
         let start = u32::try_from(self.words.len()).ok()?;
         let levels = 32 - size[0].max(size[1]).leading_zeros();
-        self.words
+        self.own_words()
             .extend([size[0], size[1], levels, wrap[0] as u32, wrap[1] as u32, 0]);
 
         // Write the levels, each half as large as the one before.
@@ -71,10 +82,10 @@ impl TextureStore {
         let mut level_size = size;
         for _ in 1..levels {
             let (next, next_size) = self.halve(&level, level_size);
-            self.words.extend(&level);
+            self.own_words().extend(&level);
             (level, level_size) = (next, next_size);
         }
-        self.words.extend(&level);
+        self.own_words().extend(&level);
         Some(start)
     }
 
@@ -92,7 +103,7 @@ impl TextureStore {
             return None;
         }
         let start = u32::try_from(self.words.len()).ok()?;
-        self.words.extend([
+        self.own_words().extend([
             side,
             side,
             levels.len() as u32,
@@ -101,7 +112,7 @@ impl TextureStore {
             0,
         ]);
         for level in levels {
-            self.words.extend(level);
+            self.own_words().extend(level);
         }
         Some(start)
     }
@@ -109,7 +120,7 @@ impl TextureStore {
     /// Adds words that only their reader understands, and gives where they start.
     pub fn add_words(&mut self, words: &[u32]) -> Option<u32> {
         let start = u32::try_from(self.words.len()).ok()?;
-        self.words.extend(words);
+        self.own_words().extend(words);
         Some(start)
     }
 
@@ -271,6 +282,19 @@ mod tests {
             sample(store.words(), start, [0.375, 0.125], 0.0),
             [0.0, 0.0, 0.0, 1.0]
         );
+    }
+
+    #[test]
+    fn clones_share_their_words_until_one_grows() {
+        let mut store = TextureStore::new();
+        store.add([4, 4], &checker(4), [Wrap::Repeat; 2]);
+        let mut other = store.clone();
+        assert!(Arc::ptr_eq(store.shared_words(), other.shared_words()));
+        let before = store.words().to_vec();
+        let start = other.add_words(&[5, 6]).unwrap() as usize;
+        assert_eq!(store.words(), before);
+        assert_eq!(other.words()[..start], before);
+        assert_eq!(other.words()[start..], [5, 6]);
     }
 
     #[test]

@@ -4,6 +4,7 @@ use crate::flight;
 use crate::graph::{Graph, ResourceId};
 use bytemuck::AnyBitPattern;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 use std::time::Duration;
 
 pub use crate::flight::IN_FLIGHT;
@@ -77,6 +78,16 @@ pub trait Session {
     ///
     /// [`EngineError`] where the device is lost.
     fn write(&mut self, id: ResourceId, words: &[u32]) -> Result<(), EngineError>;
+
+    /// The same with words that others keep too: an engine that has its resources in the memory of the processor may
+    /// read them where they are.
+    ///
+    /// # Errors
+    ///
+    /// As [`Session::write`].
+    fn write_shared(&mut self, id: ResourceId, words: &Arc<Vec<u32>>) -> Result<(), EngineError> {
+        self.write(id, words)
+    }
 
     /// Makes room in a buffer for `count` elements, where it has less; nothing else of the graph changes. Runs in
     /// flight keep the memory that they started with.
@@ -185,6 +196,10 @@ pub trait Session {
 impl Session for Box<dyn Session> {
     fn write(&mut self, id: ResourceId, words: &[u32]) -> Result<(), EngineError> {
         self.as_mut().write(id, words)
+    }
+
+    fn write_shared(&mut self, id: ResourceId, words: &Arc<Vec<u32>>) -> Result<(), EngineError> {
+        self.as_mut().write_shared(id, words)
     }
 
     fn grow(&mut self, id: ResourceId, count: usize) -> Result<(), EngineError> {

@@ -8,6 +8,7 @@ use crate::pass::{Bindings, Bound, Work};
 use npr_vector::rank::work::Arguments;
 use rayon::prelude::*;
 use std::ops::Range;
+use std::sync::Arc;
 use std::time::Instant;
 
 /// Runs graphs on the processor, with all threads of the current rayon pool.
@@ -26,13 +27,13 @@ impl Engine for Processor {
     }
 
     fn prepare(&self, graph: Graph) -> Result<Box<dyn Session>, EngineError> {
-        let mut memory: Vec<Vec<u32>> = graph
+        let mut memory: Vec<Memory> = graph
             .resources()
             .iter()
-            .map(|resource| vec![0; resource.word_count()])
+            .map(|resource| Arc::new(vec![0; resource.word_count()]))
             .collect();
         for (id, words) in graph.held() {
-            memory[id.index()].copy_from_slice(words);
+            Arc::make_mut(&mut memory[id.index()]).copy_from_slice(words);
         }
         Ok(Box::new(ProcessorSession {
             graph,
@@ -42,30 +43,42 @@ impl Engine for Processor {
     }
 }
 
+/// The words of a resource. What others keep too is copied before a pass writes it.
+type Memory = Arc<Vec<u32>>;
+
 struct ProcessorSession {
     graph: Graph,
-    memory: Vec<Vec<u32>>,
+    memory: Vec<Memory>,
     /// What runs left that are not collected, the first one first: later runs overwrite the memory.
     done: Flight<(Vec<PassTime>, Readings)>,
 }
 
 impl ProcessorSession {
     fn readings(&self, ids: &[ResourceId]) -> Readings {
-        let words = ids.iter().map(|id| (*id, self.memory[id.index()].clone()));
+        let words = ids.iter().map(|id| (*id, self.memory[id.index()].to_vec()));
         words.collect()
     }
 }
 
 impl Session for ProcessorSession {
     fn write(&mut self, id: ResourceId, words: &[u32]) -> Result<(), EngineError> {
-        self.memory[id.index()][..words.len()].copy_from_slice(words);
+        Arc::make_mut(&mut self.memory[id.index()])[..words.len()].copy_from_slice(words);
+        Ok(())
+    }
+
+    fn write_shared(&mut self, id: ResourceId, words: &Arc<Vec<u32>>) -> Result<(), EngineError> {
+        let memory = &mut self.memory[id.index()];
+        if memory.len() != words.len() {
+            return self.write(id, words);
+        }
+        memory.clone_from(words);
         Ok(())
     }
 
     fn grow(&mut self, id: ResourceId, count: usize) -> Result<(), EngineError> {
         if self.graph.grow(id, count) {
             let words = self.graph.resource(id).word_count();
-            self.memory[id.index()] = vec![0; words];
+            self.memory[id.index()] = Arc::new(vec![0; words]);
         }
         Ok(())
     }
@@ -94,14 +107,14 @@ impl Session for ProcessorSession {
 }
 
 /// Runs one twin on memory that is lent to it meanwhile.
-fn run_node(graph: &Graph, node: &Node, memory: &mut [Vec<u32>]) -> PassTime {
+fn run_node(graph: &Graph, node: &Node, memory: &mut [Memory]) -> PassTime {
     // Lend out the memory that the pass writes.
     let start = Instant::now();
     let written: Vec<ResourceId> = writes(node).collect();
     let work_count = work_count(graph, node, memory);
     let mut lent: Vec<Vec<u32>> = written
         .iter()
-        .map(|id| std::mem::take(&mut memory[id.index()]))
+        .map(|id| Arc::unwrap_or_clone(std::mem::take(&mut memory[id.index()])))
         .collect();
 
     // Empty what the pass appends to, or writes in part.
@@ -147,7 +160,7 @@ fn run_node(graph: &Graph, node: &Node, memory: &mut [Vec<u32>]) -> PassTime {
 
     // Take the memory back.
     for (id, words) in written.iter().zip(lent) {
-        memory[id.index()] = words;
+        memory[id.index()] = Arc::new(words);
     }
     PassTime {
         name: node.pass.name,
@@ -156,7 +169,7 @@ fn run_node(graph: &Graph, node: &Node, memory: &mut [Vec<u32>]) -> PassTime {
 }
 
 /// The number of work items of a node: all that there is room for, or fewer where its size says so.
-fn work_count(graph: &Graph, node: &Node, memory: &[Vec<u32>]) -> usize {
+fn work_count(graph: &Graph, node: &Node, memory: &[Memory]) -> usize {
     let Some(WorkSize { arguments, index }) = node.size else {
         return graph.work_count(node);
     };

@@ -460,7 +460,7 @@ impl<S: Session> FrameRenderer<S> {
         write(session, frame.triangles, &model.triangles)?;
         write(session, frame.charts, &styled.inked.charts)?;
         write(session, frame.parts, &styled.parts)?;
-        write(session, frame.texels, styled.textures.words())?;
+        session.write_shared(frame.texels, styled.textures.shared_words())?;
         let edges = model.edges_by(look::creases(style).from);
         passes.lines.upload(session, &edges)?;
         if let Some(passes) = &passes.strokes {

@@ -5,7 +5,7 @@ use super::order::order_arguments;
 use super::playbill;
 use super::save;
 use super::why;
-use crate::arguments::{Backend, RenderArguments, ViewArguments};
+use crate::arguments::{Backend, RenderArguments, Size, ViewArguments};
 use crate::device_choice::DeviceChoice;
 use crate::fault::{Exit, Fault};
 use crate::hardware;
@@ -481,8 +481,11 @@ impl Painter {
         // Place the camera, and pose the scene for it.
         let (pose, style) = (&args.drawing.pose, &found.style);
         actor.stand(pose, style)?;
-        let camera =
-            |seen: &Seen<'_>| viewpoint::camera(&args.drawing.camera, seen, args.drawing.size);
+        // A draft is framed as the picture whose strokes it shows: its own sides are rounded.
+        let size = found
+            .strokes_of
+            .map_or(args.drawing.size, |[width, height]| Size { width, height });
+        let camera = |seen: &Seen<'_>| viewpoint::camera(&args.drawing.camera, seen, size);
         let (camera, viewpoint) = match order.viewpoint {
             Some(point) => (camera(&prepared.seen()?)?, point),
             None => {

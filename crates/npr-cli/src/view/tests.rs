@@ -456,3 +456,21 @@ fn a_draft_has_the_strokes_of_the_full_picture_before() {
     assert!((scaled / whole - 1.0).abs() < 0.25, "{scaled} of {whole}");
     assert!(own > 1.4 * whole, "{own} of {whole}");
 }
+
+#[test]
+fn a_draft_is_framed_as_the_full_picture_whatever_its_sides_are_rounded_to() {
+    let mut shop = Shop::new("--backend cpu");
+    let full = Order {
+        size: [301, 200],
+        ..order(&[], None)
+    };
+    let whole = shop.picture(&full).viewpoint;
+    for size in [[75, 50], [38, 25], [150, 100]] {
+        let draft = Order {
+            size,
+            is_draft: true,
+            ..order(&["line.width.base=6"], None)
+        };
+        assert_eq!(shop.picture(&draft).viewpoint, whole, "{size:?}");
+    }
+}

@@ -11,6 +11,7 @@ use npr_gpu::processor::Processor;
 use npr_shaders::Shader;
 use npr_vector::rank::scan::BLOCK;
 use proptest::prelude::*;
+use std::sync::Arc;
 
 /// The processor takes every graph and never loses it.
 const NEVER_FAILS: &str = "the processor never fails";
@@ -50,6 +51,33 @@ proptest! {
             before
         });
         prop_assert_eq!(session.read(whole).expect(NEVER_FAILS), before.collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn words_that_others_keep_are_read_where_they_are_and_never_written(values in values()) {
+        let (mut session, [buffer, whole]) = summed(values.len());
+        session.write(buffer, &values).expect(NEVER_FAILS);
+        session.run().expect(NEVER_FAILS);
+        let wanted = session.read(whole).expect(NEVER_FAILS);
+
+        // Sums of shared values are the same; where sums go, others keep words, which stay.
+        let (mut session, [buffer, whole]) = summed(values.len());
+        let shared = Arc::new(values.clone());
+        session.write_shared(buffer, &shared).expect(NEVER_FAILS);
+        session.write_shared(whole, &shared).expect(NEVER_FAILS);
+        prop_assert_eq!(Arc::strong_count(&shared), 3);
+        session.run().expect(NEVER_FAILS);
+        prop_assert_eq!(session.read(whole).expect(NEVER_FAILS), wanted);
+        session.write(buffer, &[7]).expect(NEVER_FAILS);
+        prop_assert_eq!(&*shared, &values);
+        prop_assert_eq!(Arc::strong_count(&shared), 1);
+
+        // Fewer words than there is room for leave the rest.
+        let first = Arc::new(vec![9; values.len() - values.len() / 2]);
+        session.write_shared(buffer, &first).expect(NEVER_FAILS);
+        let read = session.read(buffer).expect(NEVER_FAILS);
+        prop_assert_eq!(&read[..first.len()], &first[..]);
+        prop_assert_eq!(&read[first.len()..], &values[first.len()..]);
     }
 
     #[test]
