@@ -18,7 +18,7 @@ use npr_core::geometry::Part;
 use npr_drawing::artwork::{ArtworkOptions, Hidden, Page, Paths, arrange};
 use npr_render::{Drawing, Kind, KindSet, Lettering, LineOptions, PaintedLines, RendererOptions};
 use npr_scene::Limits;
-use npr_stylesheet::{Background, Facts, LineForm, LineOutput, Occasion, ShadeMode, Style};
+use npr_stylesheet::{Background, Facts, LineForm, LineOutput, Occasion, Style};
 use std::path::{Path, PathBuf};
 
 const MM_PER_INCH: f64 = 25.4;
@@ -100,8 +100,7 @@ impl<'a> LineJob<'a> {
 
 /// Whether regions of colour are drawn that textures have a part in.
 pub fn fills_by_textures(args: &LinesArguments, style: &Style) -> bool {
-    let shows = style.shade.use_textures && style.shade.mode != ShadeMode::Paper;
-    args.lines.fill && shows
+    args.lines.fill && style.fills_with_textures()
 }
 
 impl LineJob<'_> {

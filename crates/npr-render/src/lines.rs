@@ -8,6 +8,7 @@ mod film;
 mod finder;
 mod guides;
 mod image;
+mod laid;
 mod model;
 mod options;
 mod paint;

@@ -7,7 +7,7 @@ use crate::overlay::Over;
 use crate::{
     Antialias, Background, BackgroundMethod, Blend, CardLines, Detect, Highlight, IdMap, Ink,
     Lettering, Light, Line, LineSource, Motion, OutlineMethod, Paper, Parents, Rule, SceneHints,
-    Shade, SmokeStyle,
+    Shade, ShadeMode, SmokeStyle,
 };
 
 /// What a picture should look like.
@@ -125,6 +125,11 @@ impl Style {
         let rules = self.rule.iter().filter_map(|rule| rule.line.cards);
         let mut all = rules.chain([self.line.cards]);
         all.any(|cards| cards == CardLines::Tuft)
+    }
+
+    /// Whether the textures of materials have a part in flat colour: not where the paper's colour stands for theirs.
+    pub fn fills_with_textures(&self) -> bool {
+        self.shade.use_textures && self.shade.mode != ShadeMode::Paper
     }
 
     /// The line sources of the parts whose lines may be drawn as curves, each once.

@@ -157,14 +157,7 @@ impl LineModel {
         let assembly = Assembly::new(scene, Some(style));
         let mut model = Self::of_assembly(scene, &assembly, options, folder)?;
         let keeps_map = options.painted || colors::needs_map(style);
-        if keeps_map || options.fills {
-            let mut map = TextureMap::new(scene, &assembly, &model.shape);
-            model.notices.extend(map.notice.take());
-            if options.fills {
-                model.fill_lights = map.mean_lights(&model.shape);
-            }
-            model.map = keeps_map.then_some(map);
-        }
+        model.lay_textures(scene, &assembly, (keeps_map, options.fills));
         model.draw_cards(style)?;
         model.note_card_offsets();
         Ok(model)
@@ -317,11 +310,6 @@ impl LineModel {
     /// Gives the pictures that styles name in `line.paint.image` and `line.brush.image`, by these names.
     pub fn set_pictures(&mut self, pictures: BTreeMap<String, Picture>) {
         self.pictures = pictures;
-    }
-
-    /// Keeps what is seen in the last `count` views, which drawings of them in another look then need not find anew.
-    pub fn keep_views(&mut self, count: usize) {
-        self.recent = RecentViews::of(count);
     }
 
     /// Draws smoke with the scene from now on, or none.

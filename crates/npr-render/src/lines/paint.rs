@@ -7,7 +7,7 @@ use crate::part_info::PartInfo;
 use npr_core::color::srgb_from_linear;
 use npr_drawing::fill;
 use npr_mesh::half_edge::{HalfEdgeMesh, Surface};
-use npr_stylesheet::{Look, ShadeMode, Style};
+use npr_stylesheet::{Look, Style};
 use npr_vector::mesh_lines::bvh::FaceTree;
 use npr_vector::project::Projector;
 use npr_vector::stroke::{Region, Stroke, StrokeSurface};
@@ -55,7 +55,7 @@ impl Paint {
 
     /// The same with fills multiplied by the light of their textures, as far as a style shows textures.
     pub fn filled(mut self, lights: &[[f32; 3]], parts: &[PartInfo], style: &Style) -> Self {
-        if !style.shade.use_textures || style.shade.mode == ShadeMode::Paper {
+        if !style.fills_with_textures() {
             return self;
         }
         for ((paint, light), info) in self.surfaces.iter_mut().zip(lights).zip(parts) {

@@ -1,6 +1,7 @@
 //! A line model that moves: its vertices in other poses, with everything that hangs on them and nothing else made anew.
 
 use super::model::LineModel;
+use super::recent::RecentViews;
 use super::smoke;
 use crate::error::RenderError;
 use crate::file_light;
@@ -12,6 +13,11 @@ use npr_scene::{Mesh, Scene};
 use std::sync::{Mutex, OnceLock};
 
 impl LineModel {
+    /// Keeps what is seen in the last `count` views, which drawings of them in another look then need not find anew.
+    pub fn keep_views(&mut self, count: usize) {
+        self.recent = RecentViews::of(count);
+    }
+
     /// Moves the model into the pose of a scene: the one that it was made of, with other places of nodes and joints,
     /// and other weights of morphs ([`Scene::set_pose`]).
     ///
