@@ -3,7 +3,7 @@
 # step side by side into OUT, and compares what the window saved with what the command draws, byte by byte.
 #
 #   cargo build -p npr-cli --features view
-#   tests/window.sh target/debug/npr MODEL MODEL_WITH_CLIPS OUT.png
+#   tests/window.sh target/debug/npr MODEL MODEL_WITH_CLIPS OUT.png [cpu|gpu]
 #
 # Controls are found by their names, as programs that read screens find them. Not part of `cargo xtask ci`: it needs
 # Xvfb, xdotool, xclip, ImageMagick, at-spi2-core, dbus-run-session and python3-gi.
@@ -15,6 +15,7 @@ npr=$(realpath "$1")
 model=$(realpath "$2")
 animated=$(realpath "$3")
 out=$(realpath -m "$4")
+backend=${5:-cpu}
 finder=$(realpath "$(dirname "$0")/window_place.py")
 folder=$(mktemp -d)
 cd "$folder"
@@ -44,7 +45,7 @@ search() { press Search; xdotool key ctrl+a BackSpace; xdotool type "$1"; sleep 
 full() { sleep 0.7; find "(scene|film)\.[a-z]+   [0-9]+ × [0-9]+, [0-9.]+ s, .*" --text --wait 60; }
 told() { find "$1" --text --wait 60; }
 open_window() {
-  "$npr" view "$@" >>view.log 2>&1 &
+  "$npr" view "$@" --backend "$backend" >>view.log 2>&1 &
   view=$!
   find Search --wait 60 >/dev/null
   xdotool search --sync --name 'npr (scene|film)' windowfocus
@@ -87,7 +88,7 @@ shot 5
 # Click the first line that a row of the picture meets, and see why it is there.
 row=300
 line=$(convert 5.png -crop "900x1+20+$row" +repage -colorspace gray -depth 8 txt:- |
-  awk -F'[,:() ]+' 'NR > 1 && $3 + 0 < 90 { print $1 + 21; exit }')
+  awk -F'[,:() ]+' 'NR > 1 && !found && $3 + 0 < 90 { print $1 + 21; found = 1 }')
 xdotool mousemove "$line" $row click 1
 told 'Why is this line here.*'
 sleep 0.5
@@ -112,7 +113,7 @@ wait $view 2>/dev/null || true
 
 # The command, and the saved style in place of what it changes of the preset, draw the same bytes.
 command=$(printf '%s' "$copied" | sed "s|^npr |$npr |")
-eval "$command -o copied.png --backend cpu"
+eval "$command -o copied.png"
 same scene.png copied.png
 styled=$(printf '%s' "$command" | /usr/bin/python3 -c '
 import shlex, sys
@@ -124,9 +125,9 @@ while words:
     else:
         kept.append(word)
 print(shlex.join(kept + ["--style", "scene.toml"]))')
-eval "$styled -o styled.png --backend cpu"
+eval "$styled -o styled.png"
 same scene.png styled.png
-eval "${styled/ render / lines } -o lines.svg --backend cpu"
+eval "${styled/ render / lines } -o lines.svg"
 same scene.svg lines.svg
 
 # Play a clip, and take a moment of it away.
@@ -141,7 +142,7 @@ press PNG
 told '.film.png. is written'
 press 'Copy command'
 command=$(xclip -o -selection clipboard | sed "s|^npr |$npr |")
-eval "$command -o moment.png --backend cpu"
+eval "$command -o moment.png"
 same film.png moment.png
 kill -0 $view
 cat view.log

@@ -18,9 +18,16 @@ const STEP_BITS: u32 = 11u;
 // The bit of a changed tone above them; the number of the part plus one, as far as it has room, lies above that.
 const CHANGED: u32 = 2048u;
 
-// Pixels to each side that tones are looked at.
+// How far a disc moves away from other parts, in distances of its middle from the centroid of its pixels that show its
+// own part.
+const SHIFT_OF_CENTROID: f32 = 1.6;
+
+// Farthest that it moves along each axis, in radii.
+const SHIFT_OF_RADIUS: f32 = 0.7;
+
+// Pixels to each side that tones are looked at, by the radius of the disc.
 fn far_px(reach_px: f32) -> u32 {
-    return u32(ceil(reach_px + 0.5));
+    return u32(ceil(reach_px * (1.0 + SHIFT_OF_RADIUS) + 0.5));
 }
 
 // The part in a word of the evened map.

@@ -16,6 +16,42 @@
 // Half of pi: pixels over which the share of a disc on one side of a line goes from none to all, in radii.
 const EDGE_OF_RADIUS: f32 = 1.57;
 
+// Pixels below which a disc stays where it is.
+const LEAST_SHIFT_PX: f32 = 0.05;
+
+// Tones of a part over a disc.
+struct Disc {
+    // Weight of every tone.
+    weights: array<f32, 8>,
+    // Sum of them.
+    sum: f32,
+    // Sum of weights times distances from the middle, in pixels.
+    moment: vec2<f32>,
+}
+
+// Tones of a part over a disc, whose middle is moved from a pixel by `shift` pixels.
+fn disc_at(pixel: vec2<u32>, shift: vec2<f32>, part: u32) -> Disc {
+    var disc: Disc;
+    let reach_px = parts[part].tone_reach_px;
+    let far = u32(ceil(reach_px + 0.5 + max(abs(shift.x), abs(shift.y))));
+    let most = (reach_px + 0.5) * (reach_px + 0.5);
+    let low = max(pixel, vec2<u32>(far)) - far;
+    let high = min(pixel + far + 1u, window.size);
+    for (var y = low.y; y < high.y; y++) {
+        for (var x = low.x; x < high.x; x++) {
+            let away = vec2<f32>(vec2<u32>(x, y)) - vec2<f32>(pixel) - shift;
+            let square = away.x * away.x + away.y * away.y;
+            let other = tone_map[y * window.size.x + x];
+            if square > most || other >> TONE_BITS != part + 1u { continue; }
+            let weight = min(reach_px + 0.5 - sqrt(square), 1.0);
+            disc.weights[other & (TONES - 1u)] += weight;
+            disc.sum += weight;
+            disc.moment += weight * away;
+        }
+    }
+    return disc;
+}
+
 // Word of the evened map of a pixel.
 fn evened_word(pixel: vec2<u32>, word: u32) -> u32 {
     // Keep the tone where all around are alike.
@@ -24,33 +60,19 @@ fn evened_word(pixel: vec2<u32>, word: u32) -> u32 {
     let tone = word & (TONES - 1u);
     if textureLoad(tone_flags, pixel / TONE_TILE, 0).x == 0u { return tag_of(part) | (tone * STEP_PARTS); }
 
-    // Weigh the tones of the part around it.
-    let reach_px = parts[part].tone_reach_px;
-    var weights: array<f32, 8>;
-    var sum = 0.0;
-    let far = far_px(reach_px);
-    let most = (reach_px + 0.5) * (reach_px + 0.5);
-    let low = max(pixel, vec2<u32>(far)) - far;
-    let high = min(pixel + far + 1u, window.size);
-    for (var y = low.y; y < high.y; y++) {
-        for (var x = low.x; x < high.x; x++) {
-            let away = vec2<f32>(vec2<u32>(x, y)) - vec2<f32>(pixel);
-            let square = away.x * away.x + away.y * away.y;
-            let other = tone_map[y * window.size.x + x];
-            if square > most || other >> TONE_BITS != part + 1u { continue; }
-            let weight = min(reach_px + 0.5 - sqrt(square), 1.0);
-            weights[other & (TONES - 1u)] += weight;
-            sum += weight;
-        }
-    }
+    // Weigh the tones of the part around it, away from other parts.
+    var disc = disc_at(pixel, vec2<f32>(0.0), part);
+    let most = vec2<f32>(SHIFT_OF_RADIUS * parts[part].tone_reach_px);
+    let shift = clamp(disc.moment * (SHIFT_OF_CENTROID / disc.sum), -most, most);
+    if any(abs(shift) > vec2<f32>(LEAST_SHIFT_PX)) { disc = disc_at(pixel, shift, part); }
 
     // Sum the steps that most of them have passed, the last one in part.
-    let per_px = EDGE_OF_RADIUS * reach_px;
+    let per_px = EDGE_OF_RADIUS * parts[part].tone_reach_px;
     var passed = 0.0;
     var above = 0.0;
     for (var i = TONES - 1u; i > 0u; i--) {
-        above += weights[i];
-        passed += clamp((above / sum - 0.5) * per_px + 0.5, 0.0, 1.0);
+        above += disc.weights[i];
+        passed += clamp((above / disc.sum - 0.5) * per_px + 0.5, 0.0, 1.0);
     }
     let steps = u32(passed * f32(STEP_PARTS) + 0.5);
     return tag_of(part) | select(CHANGED, 0u, median_of(steps) == tone) | steps;

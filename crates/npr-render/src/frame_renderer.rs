@@ -33,6 +33,7 @@ use npr_gpu::engine::{Engine, EngineError, IN_FLIGHT, Session};
 use npr_gpu::graph::{Graph, ResourceId};
 use npr_gpu::pass::Features;
 use npr_style::compose::Compose;
+use npr_style::even_tones::far_px;
 use npr_style::lighting::LightSource;
 use npr_stylesheet::Style;
 use npr_vector::screen::residual::LARGEST_PX;
@@ -157,7 +158,10 @@ impl Needs {
             let rules = contrast.rules(style, features, reach, px, measure.samples);
             reach = reach.max(rules.room_px() as f32);
         }
-        let tones = styled.parts.iter().map(|part| part.tone_reach_px.ceil());
+        let tones = styled
+            .parts
+            .iter()
+            .map(|part| far_px(part.tone_reach_px) as f32);
         reach = tones.fold(reach, f32::max);
         if options.smoke.is_some() {
             reach = reach.max(measure.reach_px(&style.smoke));
