@@ -2,6 +2,7 @@
 // The shader declares `window`, `parts` and `evened`.
 
 //# use lib/tone_word
+//# use lib/ink_step
 
 // Whether the tones of a part are evened.
 fn is_evened(part: u32) -> bool {
@@ -47,26 +48,43 @@ fn evened_around(pixel: vec2<u32>, part: u32) -> Around {
     return around;
 }
 
-// Light of a part from its ramp at a pixel, where its tone is evened.
+// Tone of a part at a pixel, where it is evened: light from its ramp, and the share of ink; below 0 if light alone does
+// not decide it.
 struct Evened {
     is_so: bool,
     light: vec3<f32>,
+    ink: f32,
 }
 
-fn evened_light(part: u32, frame_px: vec2<f32>) -> Evened {
+fn evened_tone(part: u32, frame_px: vec2<f32>) -> Evened {
     // Take the tone that all around have, or the edge that was blended.
-    var light: Evened;
-    if !is_evened(part) { return light; }
+    var tone: Evened;
+    tone.ink = -1.0;
+    if !is_evened(part) { return tone; }
     let around = evened_around(pixel_at(window, frame_px), part);
     var steps = around.sum / max(around.count, 1u);
     if around.is_own { steps = around.own; }
     if around.least == around.most { steps = around.least * STEP_PARTS; }
-    light.is_so = around.least == around.most || around.is_changed;
+    tone.is_so = around.least == around.most || around.is_changed;
+    if !tone.is_so { return tone; }
+
+    // Take the step at the end of the ink out of them.
+    let end = ink_step(part);
+    let passed = f32(steps) / f32(STEP_PARTS);
+    var bare = 0.0;
+    if end < NO_STEP {
+        var in_ink = 0.0;
+        for (var i = 1u; i < TONES; i++) {
+            if parts[part].ramp[i].a <= end { in_ink += 1.0; }
+        }
+        bare = clamp(passed - in_ink, 0.0, 1.0);
+        tone.ink = 1.0 - bare;
+    }
 
     // Blend the tones before and behind the step.
-    let whole = min(steps / STEP_PARTS, TONES - 2u);
-    let share = f32(steps - whole * STEP_PARTS) / f32(STEP_PARTS);
+    let whole = min(u32(passed - bare), TONES - 2u);
+    let share = passed - bare - f32(whole);
     let before = parts[part].ramp[whole].rgb;
-    light.light = before + (parts[part].ramp[whole + 1u].rgb - before) * share;
-    return light;
+    tone.light = before + (parts[part].ramp[whole + 1u].rgb - before) * share;
+    return tone;
 }

@@ -1,9 +1,8 @@
 // Tones and their ink. Twin: npr_style::inking. The shader declares `lights` and `parts`.
 
 //# use lib/tone_range
+//# use lib/ink_step
 
-// Hatch luminance that stands for the hatch where there is none.
-const NO_HATCH: f32 = 0.5;
 // Least luminance of the shade ramp on a surface with hatch but no ink, above half the threshold.
 const OPEN_PAPER: f32 = 0.08;
 

@@ -1,7 +1,14 @@
 // Words of the tone map and of the evened map. Twin: npr_style::even_tones.
 
-// Bits of the tone in a word of the tone map; the number of the part plus one lies above them.
+// Bits of the tone of each of the four samples in a word of the tone map; the number of the part plus one lies above
+// them.
 const TONE_BITS: u32 = 3u;
+
+// Bits of all of them.
+const ALL_TONE_BITS: u32 = 12u;
+
+// What a tone is multiplied by for four samples that have it.
+const FOUR_TONES: u32 = 585u;
 
 // The tones of a ramp.
 const TONES: u32 = 8u;

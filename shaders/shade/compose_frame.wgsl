@@ -131,7 +131,7 @@ fn shade_surface(
     // Take what is known of the triangle, and find the colour of the surface where it is not.
     let part = triangle.part;
     var even_tone: Evened;
-    if !is_hull { even_tone = evened_light(part, frame_px); }
+    if !is_hull { even_tone = evened_tone(part, frame_px); }
     let is_plain = (constants.bits & KNOWN_PLAIN) != 0u && !even_tone.is_so;
     let is_even = (constants.bits & KNOWN_EVEN) != 0u && !is_hull && !even_tone.is_so;
     let is_toon = is_toon(part) || is_hull;
@@ -215,7 +215,8 @@ fn shade_surface(
     if is_hull { return Drawn(light, 1.0); }
 
     // Lay ink over it, once for samples in the same shadows.
-    let ink = mean_ink(id, corners, known_ink(constants), center, counted, darks);
+    let known = select(known_ink(constants), even_tone.ink, even_tone.is_so && even_tone.ink >= 0.0);
+    let ink = mean_ink(id, corners, known, center, counted, darks);
     return Drawn(inked(part, color * light, ink) + gloss, lined);
 }
 

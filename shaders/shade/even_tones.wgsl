@@ -42,9 +42,16 @@ fn disc_at(pixel: vec2<u32>, shift: vec2<f32>, part: u32) -> Disc {
             let away = vec2<f32>(vec2<u32>(x, y)) - vec2<f32>(pixel) - shift;
             let square = away.x * away.x + away.y * away.y;
             let other = tone_map[y * window.size.x + x];
-            if square > most || other >> TONE_BITS != part + 1u { continue; }
+            if square > most || other >> ALL_TONE_BITS != part + 1u { continue; }
             let weight = min(reach_px + 0.5 - sqrt(square), 1.0);
-            disc.weights[other & (TONES - 1u)] += weight;
+            let first = other & (TONES - 1u);
+            if (other & ((1u << ALL_TONE_BITS) - 1u)) == first * FOUR_TONES {
+                disc.weights[first] += weight;
+            } else {
+                for (var sample = 0u; sample < 4u; sample++) {
+                    disc.weights[(other >> (sample * TONE_BITS)) & (TONES - 1u)] += weight * 0.25;
+                }
+            }
             disc.sum += weight;
             disc.moment += weight * away;
         }
@@ -56,7 +63,7 @@ fn disc_at(pixel: vec2<u32>, shift: vec2<f32>, part: u32) -> Disc {
 fn evened_word(pixel: vec2<u32>, word: u32) -> u32 {
     // Keep the tone where all around are alike.
     if word == 0u { return 0u; }
-    let part = (word >> TONE_BITS) - 1u;
+    let part = (word >> ALL_TONE_BITS) - 1u;
     let tone = word & (TONES - 1u);
     if textureLoad(tone_flags, pixel / TONE_TILE, 0).x == 0u { return tag_of(part) | (tone * STEP_PARTS); }
 

@@ -27,36 +27,57 @@
 
 //# use lib/texture
 //# use lib/samples
+//# use lib/four
 //# use lib/surface_color
 //# use lib/surface_light
 //# use lib/hull
 //# use lib/sky
 //# use lib/shadow
 //# use lib/tone_word
+//# use lib/ink_step
 
-// Word of the tone map of a pixel; 0 where nothing is to be evened.
-fn tone_word(pixel: vec2<u32>) -> u32 {
-    // Take parts whose tones are evened.
-    let id = textureLoad(ids, pixel * compose.samples, 0).x;
-    if id == 0u || is_of_hull(id) { return 0u; }
-    let constants = triangles[id - 1u];
-    let part = constants.part;
-    if parts[part].tone_reach_px == 0.0 { return 0u; }
-
-    // Light the sample.
+// Steps that the light of a triangle has passed at a sample of the pixel whose middle is at `px`.
+fn steps_at(id: u32, constants: TriangleConstants, sample: u32, px: vec2<f32>) -> u32 {
     let corners = corners_of(triangle_of(constants));
-    let at = frame_at(window, pixel) + sample_offset(0u);
+    let at = px + sample_offset(sample);
     let weights = weights_at(corners.clip, ndc_at(view, at));
     let dark = shadowed(id, corners, weights);
     let open = open_at(openness(corners, at), vec2<f32>(0.0));
     let lit = coordinate_under(world_of(corners, weights), normal_of(corners, weights), dark, open);
-
-    // Count the steps that it has passed.
-    var passed = 0u;
-    for (var i = 1u; i < 8u; i++) {
+    let part = constants.part;
+    var passed = select(0u, 1u, ink_step(part) <= lit.x);
+    for (var i = 1u; i < TONES; i++) {
         if parts[part].ramp[i].a <= lit.x { passed += 1u; }
     }
-    return ((part + 1u) << TONE_BITS) | passed;
+    return min(passed, TONES - 1u);
+}
+
+// Word of the tone map of a pixel; 0 where nothing is to be evened.
+fn tone_word(pixel: vec2<u32>) -> u32 {
+    // Take parts whose tones are evened.
+    let seen = ids_at(pixel);
+    let id = seen.x;
+    if id == 0u || is_of_hull(id) { return 0u; }
+    let part = triangles[id - 1u].part;
+    if parts[part].tone_reach_px == 0.0 { return 0u; }
+
+    // Count the steps at every sample that shows another triangle of the part.
+    let px = frame_at(window, pixel);
+    var first = 0u;
+    var word = 0u;
+    for (var sample = 0u; sample < sample_count(); sample++) {
+        let other = number_of(seen, sample);
+        if other == 0u || is_of_hull(other) || (sample > 0u && other == id) { continue; }
+        let constants = triangles[other - 1u];
+        if constants.part != part { continue; }
+        let steps = steps_at(other, constants, sample, px);
+        if sample == 0u {
+            first = steps;
+            word = ((part + 1u) << ALL_TONE_BITS) | (first * FOUR_TONES);
+        }
+        word ^= (first ^ steps) << (sample * TONE_BITS);
+    }
+    return word;
 }
 
 // One invocation per output pixel.

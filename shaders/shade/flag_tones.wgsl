@@ -29,7 +29,7 @@ fn has_steps_around(tile: vec2<u32>) -> bool {
     let end = min(start + TONE_TILE, window.size);
     let first = first_tone(start, end);
     if first == 0u { return false; }
-    let far = far_px(parts[(first >> TONE_BITS) - 1u].tone_reach_px);
+    let far = far_px(parts[(first >> ALL_TONE_BITS) - 1u].tone_reach_px);
     let low = max(start, vec2<u32>(far)) - far;
     let high = min(end + far, window.size);
 
@@ -39,7 +39,7 @@ fn has_steps_around(tile: vec2<u32>) -> bool {
         for (var x = low.x; x < high.x; x++) {
             let word = tone_map[y * window.size.x + x];
             if word == 0u || word == first || word == other { continue; }
-            if other != 0u || word >> TONE_BITS == first >> TONE_BITS { return true; }
+            if other != 0u || word >> ALL_TONE_BITS == first >> ALL_TONE_BITS { return true; }
             other = word;
         }
     }

@@ -126,6 +126,7 @@ const LIBRARIES: &[Library] = &[
     always!("texture"),
     serving!(Features::TINTS, "tints"),
     always!("tone_range"),
+    always!("ink_step"),
     always!("tone_word"),
     serving!(Features::TONE_ROWS, "tone_row"),
     serving!(Features::TOON, "toon"),

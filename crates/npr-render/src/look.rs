@@ -90,13 +90,6 @@ impl StyledModel {
             base_width: outline(style, model.radius(), height, options.dpi, 0).base_width,
         };
         add_toons(model, style, measure, &mut parts, &mut textures);
-        let least_px = style
-            .shade
-            .least
-            .to_px(height as f32, options.dpi, world_px);
-        for part in parts.iter_mut().filter(|part| has_steps(part)) {
-            part.tone_reach_px = reach_px(least_px);
-        }
         add_line_colors(
             &model.parts,
             style,
@@ -145,6 +138,16 @@ impl StyledModel {
         let pens = inked.pens(model, &mut parts);
         let notice = options.surfaces.apply(&mut parts, &mut textures);
         inked.notices.extend(notice);
+
+        // Even the tones that are left.
+        let least_px = style
+            .shade
+            .least
+            .to_px(height as f32, options.dpi, world_px);
+        let surfaces = parts.len() - usize::from(smoke_part.is_some());
+        for part in parts[..surfaces].iter_mut().filter(|part| has_steps(part)) {
+            part.tone_reach_px = reach_px(least_px);
+        }
         Ok(Self {
             vertices: styled_vertices(model, style, options, (&pens, &calming)),
             calming,

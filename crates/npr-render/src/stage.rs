@@ -54,7 +54,6 @@ impl SurfaceStage {
             }
             if self != Self::Tones {
                 part.flags &= !(Part::TOON | Part::TONE_ROW);
-                part.tone_reach_px = 0.0;
             }
             if matches!(self, Self::Light | Self::Ink) {
                 part.flags |= Part::PLAIN;

@@ -1,17 +1,19 @@
-//! Tones of hard ramps without slivers: no piece of a tone is drawn that is narrower than the style asks for.
+//! Tones of hard ramps without slivers: no piece of a tone is drawn that is narrower than the style asks for. Ink that
+//! light alone decides is a tone too.
 //!
-//! 1. [`find_tones`] finds the tone of every pixel.
+//! 1. [`find_tones`] finds the tones of the samples of every pixel.
 //! 2. [`flag_tones`] flags the tiles that hold more than one tone of a part.
 //! 3. [`even_tones`] takes the median of the tones over a disc, the pixels of other parts left out. A median drops
 //!    strips that cover less than half of the disc, and keeps straight edges where they are. Where other parts cover
 //!    some of the disc, it moves away from them, since a strip along a border covers twice as much of what is left.
-//!    Where the median differs from the tone of the pixel, the tone is *changed*. Its edge is blended over one pixel by how far the share of the disc
+//!    Where the median differs from the tone of the first sample, the tone is *changed*. Its edge is blended over one pixel by how far the share of the disc
 //!    lies from a half: blur and cut, as [Merriman, Bence & Osher 1992] move curves.
 //! 4. The last pass looks at the medians of a pixel and of its neighbours. Where all are the same, the pixel has that
 //!    tone, whatever its samples say. Where they differ and none is changed, an edge of the light goes through, and the
 //!    samples show it as they do without all this. Where one is changed, the blended edge is shown.
 
 use crate::compose::Layers;
+use crate::inking::ink_step;
 use crate::ramp::Level;
 use crate::tone::surface_at;
 use crate::triangle_constants::TriangleConstants;
@@ -20,8 +22,15 @@ use npr_core::raster::HULL_BIT;
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Bits of the tone in a word of the tone map; the number of the part plus one lies above them.
+/// Bits of the tone of each of the four samples in a word of the tone map; the number of the part plus one lies above
+/// them.
 pub const TONE_BITS: u32 = 3;
+
+/// Bits of all of them.
+const ALL_TONE_BITS: u32 = 4 * TONE_BITS;
+
+/// What a tone is multiplied by for four samples that have it.
+const FOUR_TONES: u32 = 585;
 
 /// The tones of a ramp.
 pub const TONES: u32 = 8;
@@ -72,10 +81,25 @@ pub fn far_px(reach_px: f32) -> u32 {
     (reach_px * (1.0 + SHIFT_OF_RADIUS) + 0.5).ceil() as u32
 }
 
-/// Whether tones of a part can be evened: it has steps between tones, and they are hard.
+/// Whether tones of a part can be evened: it has steps between tones or at the end of its ink, and they are hard.
 pub fn has_steps(part: &Part) -> bool {
     let others = Part::UNLIT | Part::TONE_ROW | Part::TOON;
-    part.softness == 0.0 && part.flags & others == 0 && part.ramp[1][3] < Level::UNUSED
+    let is_even = part.ramp[1][3] >= Level::UNUSED;
+    let has_room = part.ramp[TONES as usize - 1][3] >= Level::UNUSED;
+    let has_ink = has_room && ink_step(part) < Level::UNUSED;
+    part.flags & others == 0 && (is_even || part.softness == 0.0) && (!is_even || has_ink)
+}
+
+/// Steps that the light passes at coordinate `x`: those of the ramp, and the end of the ink.
+fn steps_passed(part: &Part, x: f32) -> u32 {
+    let passed = part.ramp[1..].iter().filter(|stop| stop[3] <= x).count() as u32;
+    (passed + u32::from(ink_step(part) <= x)).min(TONES - 1)
+}
+
+/// Steps of the ramp before the ink ends.
+fn steps_in_ink(part: &Part) -> u32 {
+    let end = ink_step(part);
+    part.ramp[1..].iter().filter(|stop| stop[3] <= end).count() as u32
 }
 
 /// Tiles of each side of a picture.
@@ -83,8 +107,9 @@ pub fn tiles_of(size: [u32; 2]) -> [u32; 2] {
     size.map(|side| side.div_ceil(TILE))
 }
 
-/// Finds the tone of every pixel at the first of its samples, as a word of the tone map: the part plus one, then the
-/// number of steps of its ramp that the light has passed. 0 where nothing is to be evened.
+/// Finds the tones of every pixel, as a word of the tone map: the part of its first sample plus one, then for every
+/// sample the number of steps that the light has passed: those of its ramp, and the end of its ink. Samples that show the
+/// triangle of the first, or another part, have its tone. 0 where nothing is to be evened.
 ///
 /// O(pixels), parallel over rows.
 pub fn find_tones(layers: &Layers<'_>, tones: &mut [u32]) {
@@ -166,7 +191,7 @@ impl ToneMap<'_> {
                 if *word == 0 || known.contains(word) {
                     continue;
                 }
-                if known[1] != 0 || *word >> TONE_BITS == *first >> TONE_BITS {
+                if known[1] != 0 || *word >> ALL_TONE_BITS == *first >> ALL_TONE_BITS {
                     return true;
                 }
                 known[1] = *word;
@@ -181,7 +206,7 @@ impl ToneMap<'_> {
     }
 
     fn part_of(&self, word: u32) -> &Part {
-        &self.parts[((word >> TONE_BITS) - 1) as usize]
+        &self.parts[((word >> ALL_TONE_BITS) - 1) as usize]
     }
 
     /// Word of the evened map of a pixel.
@@ -191,7 +216,7 @@ impl ToneMap<'_> {
         if word == 0 {
             return 0;
         }
-        let tag = tag_of((word >> TONE_BITS) - 1);
+        let tag = tag_of((word >> ALL_TONE_BITS) - 1);
         let tone = word & (TONES - 1);
         if !is_flagged {
             return tag | (tone * STEP_PARTS);
@@ -232,9 +257,9 @@ impl ToneMap<'_> {
             for (u, other) in columns.clone().zip(self.row(v, columns.clone())) {
                 let right = u as f32 - x as f32 - shift[0];
                 let square = right * right + down * down;
-                if other >> TONE_BITS == word >> TONE_BITS && square <= most {
+                if other >> ALL_TONE_BITS == word >> ALL_TONE_BITS && square <= most {
                     let weight = (reach_px + 0.5 - square.sqrt()).min(1.0);
-                    disc.weights[(other & (TONES - 1)) as usize] += weight;
+                    disc.add(*other, weight);
                     disc.sum += weight;
                     disc.moment[0] += weight * right;
                     disc.moment[1] += weight * down;
@@ -260,7 +285,8 @@ impl Layers<'_> {
     /// Word of the tone map of a pixel.
     fn tone_word(&self, x: u32, y: u32) -> u32 {
         // Take parts whose tones are evened.
-        let id = self.samples_of(x, y)[0];
+        let ids = self.samples_of(x, y);
+        let id = ids[0];
         if id == 0 || id & HULL_BIT != 0 {
             return 0;
         }
@@ -270,20 +296,30 @@ impl Layers<'_> {
             return 0;
         }
 
-        // Light the sample.
+        // Count the steps at every sample that shows another triangle of the part.
+        let pixel = self.window.frame_at(x, y);
+        let first = self.steps_at(id, 0, pixel);
+        let mut word = ((number + 1) << ALL_TONE_BITS) | (first * FOUR_TONES);
+        for (sample, other) in (0u32..).zip(ids.iter()).skip(1) {
+            let is_bare = *other == 0 || *other & HULL_BIT != 0 || *other == id;
+            if !is_bare && self.known[(other - 1) as usize].part == number {
+                word ^= (first ^ self.steps_at(*other, sample, pixel)) << (sample * TONE_BITS);
+            }
+        }
+        word
+    }
+
+    /// Steps that the light of triangle `id` has passed at a sample of the pixel whose middle is at `px`.
+    fn steps_at(&self, id: u32, sample: u32, [px, py]: [f32; 2]) -> u32 {
         let triangle = &self.triangles[(id - 1) as usize];
         let corners = self.corners_of(triangle);
-        let [px, py] = self.window.frame_at(x, y);
-        let offset = self.sample_offset(0);
+        let offset = self.sample_offset(sample);
         let at = [px + offset[0], py + offset[1]];
         let (weights, world, normal) = surface_at(self.view, &corners, at);
         let dark = self.shadowed(id, &corners, weights);
         let open = self.openness(&corners, at).at([0.0; 2]);
         let (x, _) = self.lights.coordinate_under(world, normal, dark, open);
-
-        // Count the steps that it has passed.
-        let passed = part.ramp[1..].iter().filter(|stop| stop[3] <= x).count();
-        (number + 1) << TONE_BITS | passed as u32
+        steps_passed(&self.parts[triangle.part as usize], x)
     }
 
     /// The colour that a triangle has all over, if its tones are not evened.
@@ -308,8 +344,8 @@ impl Layers<'_> {
             && parts.clone().all(|part| part == own)
     }
 
-    /// Light of part `number` from its ramp at a pixel where its tone is evened; `None` where samples show it.
-    pub(crate) fn evened_light(&self, number: u32, frame_px: [f32; 2]) -> Option<[f32; 3]> {
+    /// Tone of part `number` at a pixel where it is evened; `None` where samples show it.
+    pub(crate) fn evened_tone(&self, number: u32, frame_px: [f32; 2]) -> Option<Evened> {
         // Take the tone that all around have, or the edge that was blended.
         let part = &self.parts[number as usize];
         if part.tone_reach_px == 0.0 {
@@ -324,11 +360,21 @@ impl Layers<'_> {
             return None;
         };
 
+        // Take the step at the end of the ink out of them.
+        let end = ink_step(part);
+        let passed = steps as f32 / STEP_PARTS as f32;
+        let bare = match end < Level::UNUSED {
+            true => (passed - steps_in_ink(part) as f32).clamp(0.0, 1.0),
+            false => 0.0,
+        };
+        let ink = (end < Level::UNUSED).then_some(1.0 - bare);
+
         // Blend the tones before and behind the step.
-        let whole = (steps / STEP_PARTS).min(TONES - 2);
-        let share = (steps - whole * STEP_PARTS) as f32 / STEP_PARTS as f32;
+        let whole = ((passed - bare) as u32).min(TONES - 2);
+        let share = passed - bare - whole as f32;
         let [from, to] = [whole, whole + 1].map(|tone| part.ramp[tone as usize]);
-        Some(std::array::from_fn(|i| from[i] + (to[i] - from[i]) * share))
+        let light = std::array::from_fn(|i| from[i] + (to[i] - from[i]) * share);
+        Some(Evened { light, ink })
     }
 
     /// The evened map in and around a pixel, as far as it shows a part.
@@ -360,6 +406,30 @@ impl Layers<'_> {
     }
 }
 
+impl Disc {
+    /// Adds the tones of a pixel.
+    fn add(&mut self, word: u32, weight: f32) {
+        let first = word & (TONES - 1);
+        if word & ((1 << ALL_TONE_BITS) - 1) == first * FOUR_TONES {
+            self.weights[first as usize] += weight;
+            return;
+        }
+        for sample in 0..4 {
+            let tone = (word >> (sample * TONE_BITS)) & (TONES - 1);
+            self.weights[tone as usize] += weight * 0.25;
+        }
+    }
+}
+
+/// An evened tone.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Evened {
+    /// Light from the ramp.
+    pub light: [f32; 3],
+    /// Share of ink, 0..1, if light alone decides it.
+    pub ink: Option<f32>,
+}
+
 /// Evened tones of a part in and around a pixel.
 #[derive(Debug, Clone, Copy, Default)]
 struct Around {
@@ -387,6 +457,8 @@ mod tests {
     use super::*;
     use crate::backdrop::Rules;
     use crate::compose::Compose;
+    use crate::hatch::tone_value;
+    use crate::inking::shade_level;
     use crate::lighting::Lights;
     use npr_core::math;
     use npr_core::window::{View, Window};
@@ -408,7 +480,7 @@ mod tests {
     }
 
     fn word(part: u32, tone: u32) -> u32 {
-        (part + 1) << TONE_BITS | tone
+        (part + 1) << ALL_TONE_BITS | tone * FOUR_TONES
     }
 
     /// A picture of words of the tone map.
@@ -446,8 +518,13 @@ mod tests {
             self.evened[(y * SIDE + x) as usize] & CHANGED != 0
         }
 
-        /// The tone of part 0 that a pixel shows; none where samples decide.
+        /// The light of part 0 that a pixel shows; none where samples decide.
         fn shown(&self, x: u32, y: u32) -> Option<f32> {
+            self.evened(x, y).map(|tone| tone.light[0])
+        }
+
+        /// The tone of part 0 that a pixel shows; none where samples decide.
+        fn evened(&self, x: u32, y: u32) -> Option<Evened> {
             let size = [SIDE as f32; 2];
             let window = Window::over(size, [0.0; 2], size, [SIDE; 2]);
             let (view, lights, rules) = (View::default(), Lights::default(), Rules::default());
@@ -457,8 +534,7 @@ mod tests {
                 evened: &self.evened,
                 ..Layers::empty(&view, &window, &compose, &lights, &rules)
             };
-            let light = layers.evened_light(0, [x as f32 + 0.5, y as f32 + 0.5])?;
-            Some(light[0])
+            layers.evened_tone(0, [x as f32 + 0.5, y as f32 + 0.5])
         }
     }
 
@@ -545,6 +621,48 @@ mod tests {
                         prop_assert!(strip > 0.5, "{width} of {least}: {x} {y} lost {strip}");
                     }
                 }
+            }
+        }
+
+        /// Where all around have passed the same steps, light and ink are those that the ramp and the ink have there.
+        #[test]
+        fn steps_are_those_of_the_ramp_and_of_the_ink(
+            x in 0f32..1.0, dark_at in 0f32..0.9, gray in -0.2f32..0.4, threshold in 0.2f32..0.8,
+        ) {
+            let inked = Part {
+                flags: Part::INK,
+                dark_at,
+                light_at: dark_at + gray,
+                threshold,
+                ..part(2.0)
+            };
+            let steps = steps_passed(&inked, x);
+            let toned = Toned::new(vec![inked], true, |_, _| word(0, steps));
+            let shown = toned.evened(20, 20).expect("one tone");
+            let is_dark = tone_value(0.5, shade_level(x, dark_at, inked.light_at)) < threshold;
+            prop_assert_eq!(shown.ink, Some(f32::from(u8::from(is_dark))));
+            let passed = inked.ramp[1..].iter().filter(|stop| stop[3] <= x).count();
+            prop_assert_eq!(shown.light[0], inked.ramp[passed][0]);
+        }
+
+        /// A part of ink and paper keeps no sliver of either.
+        #[test]
+        fn slivers_of_ink_and_of_paper_are_gone(angle in 0f32..6.3, least in 2f32..5.0, is_ink: bool) {
+            let mut inked = part(least);
+            inked.ramp[1..].fill([0.0, 0.0, 0.0, Level::UNUSED]);
+            (inked.flags, inked.dark_at, inked.light_at, inked.threshold) = (Part::INK, 0.4, 0.4, 0.5);
+            prop_assert!(has_steps(&inked));
+            let normal = [math::cos(angle), math::sin(angle)];
+            let middle = SIDE as f32 / 2.0;
+            let is_strip = |[x, y]: [f32; 2]| {
+                ((x - middle) * normal[0] + (y - middle) * normal[1]).abs() < least / 2.0 - 0.6
+            };
+            let toned = Toned::new(vec![inked], false, |x, y| {
+                word(0, u32::from(is_strip(sample_of(1, x, y)) != is_ink))
+            });
+            for (x, y) in pixels(12..28) {
+                let ink = toned.evened(x, y).and_then(|tone| tone.ink).expect("ink is evened");
+                prop_assert!((ink < 0.5) == is_ink, "{x} {y}: {ink}");
             }
         }
 

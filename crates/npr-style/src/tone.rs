@@ -6,6 +6,7 @@
 use crate::backdrop::ContrastCache;
 use crate::compose::{Compose, Layers};
 use crate::corners::Corners;
+use crate::even_tones::Evened;
 use crate::gloss::shines_gently;
 use crate::inking::{ink_over, length};
 use crate::lighting::Openness;
@@ -71,8 +72,15 @@ struct Group {
     /// Middle of the pixel in the frame; the middle of the samples follows.
     frame_px: [f32; 2],
     center: [f32; 2],
-    /// Light of the part's ramp in the pixel, where its tones are evened.
-    evened: Option<[f32; 3]>,
+    /// The part's tone in the pixel, where it is evened.
+    evened: Option<Evened>,
+}
+
+impl Group {
+    /// Ink of the group if it is the same all over, by its evened tone or by what is known of its triangle.
+    fn known_ink(&self, known: &TriangleConstants) -> Option<f32> {
+        self.evened.and_then(|tone| tone.ink).or(known.ink())
+    }
 }
 
 /// The sums over a group's samples.
@@ -185,7 +193,7 @@ impl Layers<'_> {
         // Find the colour of the surface.
         let triangle = &self.triangles[((id & ID_MASK) - 1) as usize];
         let part = &self.parts[triangle.part as usize];
-        let evened = self.evened_light(triangle.part, frame_px);
+        let evened = self.evened_tone(triangle.part, frame_px);
         let group = self.group(id, members, frame_px, evened);
         let known = &match evened {
             Some(_) => known.without_light(),
@@ -226,7 +234,7 @@ impl Layers<'_> {
         std::array::from_fn(|i| drawn[i] + (line[i] - drawn[i]) * sampled.line)
     }
 
-    fn group(&self, id: u32, members: u32, frame_px: [f32; 2], evened: Option<[f32; 3]>) -> Group {
+    fn group(&self, id: u32, members: u32, frame_px: [f32; 2], evened: Option<Evened>) -> Group {
         let count = members.count_ones() as f32;
         let mut center = frame_px;
         for i in (0..4).filter(|i| members & (1 << i) != 0) {
@@ -273,8 +281,8 @@ impl Layers<'_> {
             _ if known.is_plain() => [1.0; 3],
             _ => known.color,
         };
-        let ink = known
-            .ink()
+        let ink = group
+            .known_ink(known)
             .unwrap_or_else(|| self.ink_at(group.id, part, corners, group.center, 0));
         let gloss = match middle {
             _ if !shines => [0.0; 3],
@@ -357,8 +365,8 @@ impl Layers<'_> {
                 sum.gloss = std::array::from_fn(|k| sum.gloss[k] + gloss[k] / count);
             }
             ink = Some(Inked::with(ink, dark, count, || {
-                known
-                    .ink()
+                group
+                    .known_ink(known)
                     .or_else(|| self.even_ink_in_shadow(part, corners, dark))
                     .unwrap_or_else(|| self.ink_at(group.id, part, corners, group.center, dark))
             }));
@@ -411,7 +419,7 @@ impl Layers<'_> {
     /// by its part's ramp, or by the light of it that was evened.
     fn light_of(
         &self,
-        (part, evened): (&Part, Option<[f32; 3]>),
+        (part, evened): (&Part, Option<Evened>),
         (world, normal): ([f32; 3], [f32; 3]),
         dark: u32,
         open: Openness,
@@ -420,7 +428,7 @@ impl Layers<'_> {
             return [1.0; 3];
         }
         let (x, color) = self.lights.coordinate_under(world, normal, dark, open);
-        let light = evened.unwrap_or_else(|| self.ramp_of(part, x));
+        let light = evened.map_or_else(|| self.ramp_of(part, x), |tone| tone.light);
         std::array::from_fn(|i| light[i] * color[i])
     }
 

@@ -50,7 +50,7 @@ const PRESETS: &[Preset] = presets![
     "comic-silver" 5 "../presets/comic-silver.toml",
     "comic-modern" 7 "../presets/comic-modern.toml",
     "comic-light" 5 "../presets/comic-light.toml",
-    "simple-comic" 5 "../presets/simple-comic.toml",
+    "simple-comic" 6 "../presets/simple-comic.toml",
     "crosshatch" 5 "../presets/crosshatch.toml",
     "stipple" 5 "../presets/stipple.toml",
     "pencil" 6 "../presets/pencil.toml",
@@ -185,6 +185,7 @@ const OLDER: &[Preset] = presets![
     "simple-comic" 2 "../presets/older/simple-comic-2.toml",
     "simple-comic" 3 "../presets/older/simple-comic-3.toml",
     "simple-comic" 4 "../presets/older/simple-comic-4.toml",
+    "simple-comic" 5 "../presets/older/simple-comic-5.toml",
     "sketch" 1 "../presets/older/sketch-1.toml",
     "sketch" 2 "../presets/older/sketch-2.toml",
     "sketch" 3 "../presets/older/sketch-3.toml",
@@ -402,7 +403,7 @@ mod tests {
     }
 
     /// The first version of presets with calm tones and rounded edges, where a newer one came after it.
-    const FIRST_CALM: [(&str, u32); 16] = [
+    const FIRST_CALM: [(&str, u32); 17] = [
         ("brush", 4),
         ("chalkboard", 4),
         ("charcoal", 3),
@@ -416,6 +417,7 @@ mod tests {
         ("manga", 4),
         ("pencil", 5),
         ("screentone", 4),
+        ("simple-comic", 5),
         ("sketch", 3),
         ("smoke-comic", 4),
         ("stipple", 4),

@@ -38,7 +38,8 @@ pub struct Shade {
     pub calm: f32 = 0.02,
     /// Narrowest piece of a tone that is drawn, in reference pixels or a length with a unit; default 0. At 2 strips of
     /// shade along folds and specks of light that are narrower take the tone around them; at 5 masses are calm and
-    /// their corners round. At most 6.5 pixels of the picture. For hard steps alone: `softness` 0, and no `ramp_image`.
+    /// their corners round. At most 6.5 pixels of the picture. For hard steps alone: `softness` 0, and no `ramp_image`;
+    /// the end of `ink.tone` "ink" is one too, unless `ink.paint` darkens it.
     pub least: Length = Length::ref_px(0.0),
     /// Colour of the paper that mode `paper` fills surfaces with; default white.
     pub paper: Color = Color::WHITE,

@@ -2,8 +2,14 @@
 
 use super::super::case::LineForm;
 use super::entry::{Entry, entry};
-use crate::{Edge, Follow, HighlightModel, Mapping, Pattern, ShadeMode, Tone};
+use crate::{Edge, Follow, HighlightModel, Look, Mapping, Pattern, ShadeMode, Tone};
 use npr_core::geometry::Part;
+
+/// Whether ink may be the only step between tones.
+fn ends_in_ink(look: &Look<'_>) -> bool {
+    let is_even = look.ramp_image.is_empty() && look.ramp.len() == 1;
+    is_even && matches!(look.ink.tone, Tone::Ink | Tone::Auto)
+}
 
 /// Keys of tones.
 pub(super) const ENTRIES: &[Entry] = &[
@@ -24,19 +30,19 @@ pub(super) const ENTRIES: &[Entry] = &[
         "shade.mode is flat",
     ),
     entry(
-        &["shade.least"],
-        |c| c.style.shade.softness > 0.0,
-        "shade.softness is above 0",
-    ),
-    entry(
         &["shade.ramp"],
         |c| !c.any(|look| look.ramp_image.is_empty()),
         "shade.ramp_image is in its place",
     ),
     entry(
         &["shade.least"],
-        |c| !c.any(|look| look.ramp_image.is_empty() && look.ramp.len() > 1),
-        "no part has steps of shade.ramp",
+        |c| c.style.shade.softness > 0.0 && !c.any(ends_in_ink),
+        "shade.softness is above 0",
+    ),
+    entry(
+        &["shade.least"],
+        |c| !c.any(|look| ends_in_ink(look) || look.ramp_image.is_empty() && look.ramp.len() > 1),
+        "no part has steps of shade.ramp or ink",
     ),
     entry(
         &[
