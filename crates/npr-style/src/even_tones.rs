@@ -480,7 +480,7 @@ mod tests {
     }
 
     fn word(part: u32, tone: u32) -> u32 {
-        (part + 1) << ALL_TONE_BITS | tone * FOUR_TONES
+        ((part + 1) << ALL_TONE_BITS) | (tone * FOUR_TONES)
     }
 
     /// A picture of words of the tone map.
