@@ -1,4 +1,4 @@
-// Where the ink of a part ends at once. Twin: npr_style::inking. The shader declares `parts`.
+// Where the ink of a part ends at once. Twin: npr_style::ink_step. The shader declares `parts`.
 
 // Hatch luminance that stands for the hatch where there is none.
 const NO_HATCH: f32 = 0.5;

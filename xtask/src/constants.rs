@@ -60,7 +60,7 @@ const TWINS: &[Twins] = &[
     twins("lib/geometry.wgsl", "HULL_BIT", "npr-core/src/raster.rs", "HULL_BIT"),
     twins("lib/geometry.wgsl", "ID_MASK", "npr-core/src/raster.rs", "ID_MASK"),
     twins("lib/gloss_bound.wgsl", "", "npr-style/src/gloss.rs", ""),
-    twins("lib/ink_step.wgsl", "NO_HATCH", "npr-style/src/inking.rs", "NO_HATCH"),
+    twins("lib/ink_step.wgsl", "NO_HATCH", "npr-style/src/ink_step.rs", "NO_HATCH"),
     twins("lib/ink_step.wgsl", "NO_STEP", "npr-style/src/ramp.rs", "Level::UNUSED"),
     twins("lib/ink_tone.wgsl", "", "npr-style/src/inking.rs", ""),
     twins("lib/tone_range.wgsl", "", "npr-style/src/corners.rs", ""),

@@ -6,14 +6,15 @@
 //! 3. [`even_tones`] takes the median of the tones over a disc, the pixels of other parts left out. A median drops
 //!    strips that cover less than half of the disc, and keeps straight edges where they are. Where other parts cover
 //!    some of the disc, it moves away from them, since a strip along a border covers twice as much of what is left.
-//!    Where the median differs from the tone of the first sample, the tone is *changed*. Its edge is blended over one pixel by how far the share of the disc
-//!    lies from a half: blur and cut, as [Merriman, Bence & Osher 1992] move curves.
+//!    Where the median differs from the tone of the first sample, the tone is *changed*. Its edge is blended over one
+//!    pixel by how far the share of the disc lies from a half: blur and cut, as [Merriman, Bence & Osher 1992] move
+//!    curves.
 //! 4. The last pass looks at the medians of a pixel and of its neighbours. Where all are the same, the pixel has that
 //!    tone, whatever its samples say. Where they differ and none is changed, an edge of the light goes through, and the
 //!    samples show it as they do without all this. Where one is changed, the blended edge is shown.
 
 use crate::compose::Layers;
-use crate::inking::ink_step;
+use crate::ink_step::{Evened, ink_step};
 use crate::ramp::Level;
 use crate::tone::surface_at;
 use crate::triangle_constants::TriangleConstants;
@@ -108,8 +109,8 @@ pub fn tiles_of(size: [u32; 2]) -> [u32; 2] {
 }
 
 /// Finds the tones of every pixel, as a word of the tone map: the part of its first sample plus one, then for every
-/// sample the number of steps that the light has passed: those of its ramp, and the end of its ink. Samples that show the
-/// triangle of the first, or another part, have its tone. 0 where nothing is to be evened.
+/// sample the number of steps that the light has passed: those of its ramp, and the end of its ink. Samples that show
+/// the triangle of the first, or another part, have its tone. 0 where nothing is to be evened.
 ///
 /// O(pixels), parallel over rows.
 pub fn find_tones(layers: &Layers<'_>, tones: &mut [u32]) {
@@ -419,15 +420,6 @@ impl Disc {
             self.weights[tone as usize] += weight * 0.25;
         }
     }
-}
-
-/// An evened tone.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Evened {
-    /// Light from the ramp.
-    pub light: [f32; 3],
-    /// Share of ink, 0..1, if light alone decides it.
-    pub ink: Option<f32>,
 }
 
 /// Evened tones of a part in and around a pixel.

@@ -9,17 +9,15 @@ use crate::hatch::{
     detail, edge_gradient, first_of_two, ink_coverage, level_at, sample, second_of_two, sharpen,
     tone_value,
 };
+use crate::ink_step::NO_HATCH;
 use crate::paint::painted_level;
-use crate::ramp::{Level, ramp_coordinate};
+use crate::ramp::ramp_coordinate;
 use npr_core::geometry::{ChartCorners, Part, Triangle};
 use npr_core::grain::paper_height;
 use npr_core::math::unpack_shares;
 use npr_core::raster::ID_MASK;
 use npr_core::surface::{blend, blend2, weights_around};
 use npr_core::texture::HEADER_WORDS;
-
-/// Hatch luminance at the middle of a stroke's half width: it stands for the hatch where there is none.
-const NO_HATCH: f32 = 0.5;
 
 /// Least luminance of the shade ramp on a surface with hatch but no ink, above half the threshold, at which all would
 /// be ink: the paper between strokes stays open.
@@ -52,17 +50,6 @@ fn level_of(part: &Part, x: f32) -> f32 {
     } else {
         l
     }
-}
-
-/// Coordinate of the ramp where the ink of a part ends at once, as there is nothing but the light that decides: neither
-/// strokes nor paint, and no face that the pen spares. [`Level::UNUSED`] if it does not.
-pub(crate) fn ink_step(part: &Part) -> f32 {
-    let all = Part::INK | Part::HATCH | Part::PAINTED | Part::SPARED;
-    let level = 0.5 + 0.5 * (part.threshold - NO_HATCH);
-    if part.flags & all != Part::INK || level <= 0.0 || level >= 1.0 {
-        return Level::UNUSED;
-    }
-    part.light_at.min(part.dark_at) + level * (part.light_at - part.dark_at).max(0.0)
 }
 
 /// Ink of a surface whose ramp coordinates all lie in `range`: 1 or 0 if it is the same all over, else `None`.

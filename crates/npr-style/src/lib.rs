@@ -25,6 +25,7 @@ pub mod draw_mask;
 pub mod even_tones;
 pub mod gloss;
 pub mod hatch;
+mod ink_step;
 pub mod inking;
 mod length;
 pub mod lighting;

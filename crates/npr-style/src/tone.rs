@@ -6,8 +6,8 @@
 use crate::backdrop::ContrastCache;
 use crate::compose::{Compose, Layers};
 use crate::corners::Corners;
-use crate::even_tones::Evened;
 use crate::gloss::shines_gently;
+use crate::ink_step::Evened;
 use crate::inking::{ink_over, length};
 use crate::lighting::Openness;
 use crate::line_color::LinePoint;
