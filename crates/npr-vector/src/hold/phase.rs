@@ -81,8 +81,13 @@ pub(super) fn shift(stroke: &mut Stroke, places: &[Place], votes: &[Option<Vote>
         .zip(votes)
         .map(|(place, vote)| {
             vote.map(|vote| Shift {
-                is_along: vote.is_along,
-                shift: vote.u - if vote.is_along { place.way } else { -place.way },
+                is_along: vote.is_texture_along,
+                shift: vote.u
+                    - if vote.is_texture_along {
+                        place.way
+                    } else {
+                        -place.way
+                    },
                 around: f64::from(known.line(vote.line).around_px),
             })
         })

@@ -80,19 +80,24 @@ pub(super) fn sampled(stroke: &Stroke) -> Vec<Place> {
     let around = points.last().zip(points.first()).filter(|_| stroke.closed);
     let pieces = points.windows(2).map(|pair| (&pair[0], &pair[1]));
     let (mut places, mut gone) = (Vec::new(), 0.0);
+    let is_reversed = matches!(points[..], [.., a, b] if b.u < a.u);
     for (from, to) in pieces.chain(around) {
         let length = distance(from.position, to.position);
         if !length.is_finite() {
             break;
         }
         let along = [0, 1].map(|i| (to.position[i] - from.position[i]) / length);
-        // Around a ring the texture runs on as the way does.
+        // Around a ring the texture runs on as it did before.
         let [start, end] = [from, to].map(|point| DVec3::from(point.world.map(f64::from)));
         while (places.len() as f64) * STEP_PX < gone + length {
             let way = places.len() as f64 * STEP_PX;
             let share = (way - gone) / length;
             let is_back = std::ptr::eq(to, &points[0]);
-            let u_share = if is_back { length } else { to.u - from.u };
+            let u_share = match (is_back, is_reversed) {
+                (true, false) => length,
+                (true, true) => -length,
+                (false, _) => to.u - from.u,
+            };
             places.push(Place {
                 position: [0, 1].map(|i| from.position[i] + along[i] * (way - gone)),
                 along,
@@ -125,7 +130,25 @@ pub(super) struct Seen {
     /// Unit direction of the stroke here; 0 where nothing is beside it.
     pub along: [f64; 2],
     pub u: f64,
+    /// Whether the texture runs as the line does.
+    pub is_along: bool,
     pub line: u32,
+}
+
+/// Whether the texture of a line runs as the line does at one of its samples.
+///
+/// Of the steps from and to its neighbours the one counts that is nearer to its own length: the other may lead over a
+/// seam.
+fn runs_along(samples: &[Sample], index: usize) -> bool {
+    let step = |from: usize| f64::from(samples[from + 1].u) - f64::from(samples[from].u);
+    let before = index.checked_sub(1).map(step);
+    let after = (index + 1 < samples.len()).then(|| step(index));
+    let off = |step: &f64| (step.abs() - STEP_PX).abs();
+    let best = before
+        .into_iter()
+        .chain(after)
+        .min_by(|a, b| off(a).total_cmp(&off(b)));
+    best.is_none_or(|step| step >= 0.0)
 }
 
 impl Known {
@@ -165,6 +188,7 @@ impl Known {
                         [0.0; 2]
                     },
                     u: f64::from(samples[index].u),
+                    is_along: runs_along(&samples[range.clone()], index - range.start),
                     line: number,
                 });
             }

@@ -352,6 +352,33 @@ proptest! {
         }
     }
 
+    /// Where a line is joined to one that ran against it, the lesser one keeps the texture that it had, whichever way
+    /// that runs, for as long as both are one.
+    #[test]
+    fn a_texture_that_runs_against_its_stroke_stays(
+        long in 80.0..250.0_f64, share in 0.3..0.9_f64, gap in 1.0..5.0_f64, frames in 2..6_usize, pan in -2.0..2.0_f32,
+    ) {
+        let (from, to) = (100.0 + long + gap, 100.0 + long + gap + share * long);
+        let shape = sheet(0.0);
+        let mut state = HeldStrokes::default();
+        for frame in 0..=frames {
+            // Both face each other, then they are one; the camera moves to the side.
+            let right = pan * frame as f32;
+            let shown = |id, from, to| stroke(id, &[[from, 50.0], [to, 50.0]], false, right);
+            let mut strokes = match frame {
+                0 => vec![shown(1, 100.0, 100.0 + long), shown(2, to, from)],
+                _ => vec![shown(1, 100.0, to)],
+            };
+            state.hold(&mut strokes, &shape, &view(right));
+            for x in [from + 9.0, (from + to) / 2.0, to - 3.0] {
+                let u = u_at(strokes.last().expect("a stroke"), x + f64::from(right));
+                prop_assert!((u - (to - x)).abs() < 0.3, "frame {frame} at {x}: {u} for {}", to - x);
+            }
+            let u = u_at(&strokes[0], 100.0 + long / 2.0 + f64::from(right));
+            prop_assert!((u - long / 2.0).abs() < 0.3, "frame {frame}: {u}");
+        }
+    }
+
     /// Of what nothing happens to nothing changes, to the bit, whatever was joined and parted before.
     #[test]
     fn what_stands_still_stays_to_the_bit(cuts in prop::collection::vec(60.0..560.0_f64, 0..6), again: bool) {

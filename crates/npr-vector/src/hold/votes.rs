@@ -24,6 +24,8 @@ pub(super) struct Vote {
     pub u: f64,
     /// Whether that line runs the same way.
     pub is_along: bool,
+    /// Whether its texture runs the way of the stroke.
+    pub is_texture_along: bool,
 }
 
 /// What the places of a stroke say together.
@@ -63,11 +65,13 @@ pub(super) fn votes_of(known: &Known, stroke: &Stroke, places: &[Place]) -> Vec<
                 + OLDER_PX * f64::from(line.age);
             if best.is_none_or(|(least, other, _)| (cost, sample) < (least, other)) {
                 let step = [0, 1].map(|i| place.position[i] - seen.position[i]);
+                let ahead = step[0] * seen.along[0] + step[1] * seen.along[1];
                 let vote = Vote {
                     sample,
                     line: seen.line,
-                    u: seen.u + step[0] * seen.along[0] + step[1] * seen.along[1],
+                    u: seen.u + if seen.is_along { ahead } else { -ahead },
                     is_along: cos > 0.0,
+                    is_texture_along: (cos > 0.0) == seen.is_along,
                 };
                 best = Some((cost, sample, vote));
             }
