@@ -1,9 +1,11 @@
 //! All that is seen: the picture, the panel and what is told below.
 
+mod aside;
 mod canvas;
 mod figure;
 mod filming;
 mod guides;
+mod split;
 mod timeline;
 mod why;
 
@@ -20,6 +22,7 @@ use crate::pose::Pose;
 use crate::sheet::Sheet;
 use crate::viewpoint::Viewpoint;
 use crate::why::Asked;
+use split::Split;
 use timeline::Timeline;
 
 /// Seconds without a change after which the picture is drawn in full.
@@ -50,6 +53,10 @@ pub struct Studio {
     changed_s: f64,
     /// The order that is being drawn.
     ordered: Option<Order>,
+    /// The order beside it that is being drawn, or could not be.
+    aside: Option<Order>,
+    /// The picture of the style at first.
+    split: Split,
     /// Width and height that a full picture has now, in pixels.
     size: [u32; 2],
     shown: Option<(Picture, TextureHandle)>,
@@ -70,6 +77,7 @@ impl Studio {
     pub fn new(sheet: Sheet, size: Option<[u32; 2]>, host: Box<dyn Host>) -> Self {
         Self {
             host,
+            split: Split::new(sheet.clone()),
             sheet,
             history: History::default(),
             panel: Panel::default(),
@@ -83,6 +91,7 @@ impl Studio {
             change: 1,
             changed_s: 0.0,
             ordered: None,
+            aside: None,
             size: size.unwrap_or([1, 1]),
             shown: None,
             told: None,
@@ -184,15 +193,19 @@ impl Studio {
                             self.history.forget_faces();
                         }
                         self.ordered = None;
+                        self.aside = None;
+                        self.split.forget();
                         self.changed(ui);
                     }
                     self.scene = name;
                     self.take_cast(*cast, ui);
                 }
+                News::Aside(order, drawn) => self.take_aside(&order, drawn, ui),
                 News::Pointed(answer) => self.take_answer(*answer, ui),
                 News::Film(done) => self.filming.done = done,
                 News::StyleChanged => {
                     let name = self.sheet.name().to_owned();
+                    self.split.forget();
                     self.take_style(&name, ui);
                 }
             }
@@ -339,6 +352,9 @@ impl Studio {
         if pressed(Modifiers::NONE, Key::Num5) {
             self.move_camera(ui, |point| point.is_parallel = !point.is_parallel);
         }
+        if pressed(Modifiers::NONE, Key::B) {
+            self.split.is_on = !self.split.is_on;
+        }
         if pressed(Modifiers::NONE, Key::Home) {
             self.viewpoint = None;
             self.changed(ui);
@@ -439,6 +455,8 @@ impl Studio {
                 {
                     self.save(Take::Style);
                 }
+                let split = ui.toggle_value(&mut self.split.is_on, "Before");
+                split.on_hover_text("B: the style as it was opened, left of a handle to drag");
                 // The list takes what is left, however long the name: a row that is too wide widens the panel.
                 let shown = egui::ComboBox::from_id_salt("presets")
                     .width(ui.available_width())
@@ -513,12 +531,14 @@ impl Studio {
             .as_ref()
             .is_some_and(|(picture, _)| has(&full, &picture.order));
         let is_asked = self.ordered.as_ref().is_some_and(|order| has(&full, order));
+        if is_done && is_still {
+            self.ask_aside();
+        }
         if is_done || is_asked {
             return;
         }
         if is_still || self.shown.is_none() {
-            self.ordered = Some(full.clone());
-            self.host.draw(full);
+            self.order_picture(full);
             return;
         }
 
@@ -537,8 +557,14 @@ impl Studio {
             .is_some_and(|(picture, _)| picture.order.change == self.change);
         let is_free = self.ordered.as_ref().is_none_or(|order| !order.is_draft);
         if is_free && !is_drawn {
-            self.ordered = Some(draft.clone());
-            self.host.draw(draft);
+            self.order_picture(draft);
         }
+    }
+
+    /// Asks for a picture, in place of one beside it that waits.
+    fn order_picture(&mut self, order: Order) {
+        self.aside = None;
+        self.ordered = Some(order.clone());
+        self.host.draw(order);
     }
 }
