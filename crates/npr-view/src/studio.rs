@@ -4,6 +4,7 @@ mod aside;
 mod canvas;
 mod figure;
 mod filming;
+mod gallery;
 mod guides;
 mod split;
 mod timeline;
@@ -11,17 +12,18 @@ mod why;
 
 use egui::{Align, Key, KeyboardShortcut, Layout, Modifiers, RichText, TextureHandle, Ui};
 use npr_core::standard_view::StandardView;
-use npr_stylesheet::{StyleError, presets};
+use npr_stylesheet::StyleError;
 
 use crate::film::Filming;
 use crate::history::History;
 use crate::host::{Host, News, Order, Picture, Take};
 use crate::pace::Pace;
-use crate::panel::{Edit, Panel, stepped};
+use crate::panel::{Edit, Panel};
 use crate::pose::Pose;
 use crate::sheet::Sheet;
 use crate::viewpoint::Viewpoint;
 use crate::why::Asked;
+use gallery::Gallery;
 use split::Split;
 use timeline::Timeline;
 
@@ -57,6 +59,8 @@ pub struct Studio {
     aside: Option<Order>,
     /// The picture of the style at first.
     split: Split,
+    /// Pictures of the presets.
+    gallery: Gallery,
     /// Width and height that a full picture has now, in pixels.
     size: [u32; 2],
     shown: Option<(Picture, TextureHandle)>,
@@ -92,6 +96,7 @@ impl Studio {
             changed_s: 0.0,
             ordered: None,
             aside: None,
+            gallery: Gallery::default(),
             size: size.unwrap_or([1, 1]),
             shown: None,
             told: None,
@@ -195,6 +200,7 @@ impl Studio {
                         self.ordered = None;
                         self.aside = None;
                         self.split.forget();
+                        self.gallery.forget();
                         self.changed(ui);
                     }
                     self.scene = name;
@@ -457,26 +463,7 @@ impl Studio {
                 }
                 let split = ui.toggle_value(&mut self.split.is_on, "Before");
                 split.on_hover_text("B: the style as it was opened, left of a handle to drag");
-                // The list takes what is left, however long the name: a row that is too wide widens the panel.
-                let shown = egui::ComboBox::from_id_salt("presets")
-                    .width(ui.available_width())
-                    .height(420.0)
-                    .truncate()
-                    .selected_text(self.sheet.name())
-                    .show_ui(ui, |ui| {
-                        for preset in presets() {
-                            let is_own = preset.name == self.sheet.name();
-                            if ui.selectable_label(is_own, preset.name).clicked() && !is_own {
-                                chosen = Some(preset.name);
-                            }
-                        }
-                    });
-                crate::panel::name_it(&shown.response, "Style");
-                let place = presets()
-                    .iter()
-                    .position(|preset| preset.name == self.sheet.name());
-                let there = stepped(&shown.response, place.unwrap_or(0), presets().len());
-                chosen = chosen.or(there.map(|there| presets()[there].name));
+                chosen = self.show_gallery(ui);
             });
         });
         if let Some(name) = chosen {

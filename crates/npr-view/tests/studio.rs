@@ -6,6 +6,8 @@
     reason = "tests fail by panicking"
 )]
 
+#[path = "studio/gallery.rs"]
+mod gallery;
 #[path = "studio/keyboard.rs"]
 mod keyboard;
 #[path = "studio/pointing.rs"]

@@ -11,7 +11,8 @@ impl Studio {
         if self.aside.is_some() {
             return;
         }
-        if let Some(order) = self.missing_first() {
+        let missing = self.missing_first().or_else(|| self.missing_preset());
+        if let Some(order) = missing {
             self.aside = Some(order.clone());
             self.host.draw_aside(order);
         }
@@ -24,14 +25,23 @@ impl Studio {
         drawn: Result<Box<Picture>, String>,
         ui: &Ui,
     ) {
-        // One that could not be drawn is asked for no more, until something else is drawn.
         let is_last = self.aside.as_ref() == Some(order);
+        let free = self.aside.take().filter(|_| !is_last);
         match drawn {
             Ok(picture) => {
-                self.aside = self.aside.take().filter(|_| !is_last);
-                self.take_first(order, || canvas::texture(ui.ctx(), &picture));
+                let texture = || canvas::texture(ui.ctx(), &picture);
+                if !self.take_first(order, texture) {
+                    let texture = canvas::texture(ui.ctx(), &picture);
+                    self.take_preset(order, Some(texture));
+                }
+                self.aside = free;
             }
-            Err(text) => self.tell_fault(format!("no picture from before: {text}")),
+            Err(_) if self.take_preset(order, None) => self.aside = free,
+            Err(text) => {
+                // It is asked for no more, until something else is drawn.
+                self.aside = free.or_else(|| is_last.then(|| order.clone()));
+                self.tell_fault(format!("no picture of before: {text}"));
+            }
         }
         ui.ctx().request_repaint();
     }

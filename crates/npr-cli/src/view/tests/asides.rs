@@ -73,3 +73,31 @@ fn a_picture_that_is_asked_for_later_takes_the_place_of_one_beside_it() {
         _ => None,
     });
 }
+
+#[test]
+fn a_small_picture_of_a_preset_has_the_strokes_of_the_large_one() {
+    let mut shop = Shop::new("--backend cpu");
+    let ink_of = |picture: &Picture| {
+        let pixels = picture.rgba.chunks_exact(4);
+        let dark = pixels.filter(|pixel| pixel[1] < 100).count();
+        dark as f64 / f64::from(picture.order.size[0] * picture.order.size[1])
+    };
+    let now = Order {
+        size: [480, 360],
+        ..order(&[], Some(aside(false)))
+    };
+    let preset = Order {
+        style: "toon".to_owned(),
+        overrides: vec!["line.width.base=12px".to_owned()],
+        ..now.clone()
+    };
+    let large = ink_of(&shop.picture(&preset));
+    shop.picture(&now);
+    let small = Order {
+        size: [160, 120],
+        is_draft: true,
+        ..preset
+    };
+    let small = ink_of(&beside(&mut shop, &small).expect("a picture"));
+    assert!((small / large - 1.0).abs() < 0.15, "{small} of {large}");
+}
