@@ -179,6 +179,10 @@ impl Host for Desk {
         self.ask(Ask::Draw(order, self.opened));
     }
 
+    fn draw_aside(&mut self, order: Order) {
+        self.ask(Ask::Aside(order, self.opened));
+    }
+
     fn point_at(&mut self, question: Question) {
         self.ask(Ask::PointAt(question));
     }

@@ -20,6 +20,8 @@ impl Host for Idle {
 
     fn draw(&mut self, _: Order) {}
 
+    fn draw_aside(&mut self, _: Order) {}
+
     fn point_at(&mut self, _: Question) {}
 
     fn news(&mut self) -> Vec<News> {

@@ -101,6 +101,8 @@ pub enum News {
     Film(Option<[usize; 2]>),
     /// The style file has changed where it lies.
     StyleChanged,
+    /// A picture beside the present one is finished, or why it is not.
+    Aside(Box<Order>, Result<Box<Picture>, String>),
     /// What is at a place of a picture.
     Pointed(Box<Answer>),
 }
@@ -130,6 +132,10 @@ pub trait Host {
 
     /// Draws a picture. One that is asked for later may be drawn in place of it.
     fn draw(&mut self, order: Order);
+
+    /// Draws a picture beside the present one, as of another style, when nothing else is to be drawn; [`News::Aside`]
+    /// tells it. Any picture that is asked for later may be drawn in place of it.
+    fn draw_aside(&mut self, order: Order);
 
     /// Finds out what is at a place of a picture; [`News::Pointed`] tells it.
     fn point_at(&mut self, question: Question);

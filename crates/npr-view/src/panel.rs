@@ -13,7 +13,7 @@ use toml::Value;
 
 use crate::sheet::Sheet;
 use controls::{UNFOLDED, control};
-pub(crate) use naming::{name_it, stepped};
+pub(crate) use naming::{arrows, name_it, stepped};
 
 /// Width of the names of keys, in points.
 const NAME_WIDTH: f32 = 118.0;

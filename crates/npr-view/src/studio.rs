@@ -1,25 +1,30 @@
 //! All that is seen: the picture, the panel and what is told below.
 
+mod aside;
 mod canvas;
 mod figure;
 mod filming;
+mod gallery;
 mod guides;
+mod split;
 mod timeline;
 mod why;
 
 use egui::{Align, Key, KeyboardShortcut, Layout, Modifiers, RichText, TextureHandle, Ui};
 use npr_core::standard_view::StandardView;
-use npr_stylesheet::{StyleError, presets};
+use npr_stylesheet::StyleError;
 
 use crate::film::Filming;
 use crate::history::History;
 use crate::host::{Host, News, Order, Picture, Take};
 use crate::pace::Pace;
-use crate::panel::{Edit, Panel, stepped};
+use crate::panel::{Edit, Panel};
 use crate::pose::Pose;
 use crate::sheet::Sheet;
 use crate::viewpoint::Viewpoint;
 use crate::why::Asked;
+use gallery::Gallery;
+use split::Split;
 use timeline::Timeline;
 
 /// Seconds without a change after which the picture is drawn in full.
@@ -50,6 +55,12 @@ pub struct Studio {
     changed_s: f64,
     /// The order that is being drawn.
     ordered: Option<Order>,
+    /// The order beside it that is being drawn, or could not be.
+    aside: Option<Order>,
+    /// The picture of the style at first.
+    split: Split,
+    /// Pictures of the presets.
+    gallery: Gallery,
     /// Width and height that a full picture has now, in pixels.
     size: [u32; 2],
     shown: Option<(Picture, TextureHandle)>,
@@ -70,6 +81,7 @@ impl Studio {
     pub fn new(sheet: Sheet, size: Option<[u32; 2]>, host: Box<dyn Host>) -> Self {
         Self {
             host,
+            split: Split::new(sheet.clone()),
             sheet,
             history: History::default(),
             panel: Panel::default(),
@@ -83,6 +95,8 @@ impl Studio {
             change: 1,
             changed_s: 0.0,
             ordered: None,
+            aside: None,
+            gallery: Gallery::default(),
             size: size.unwrap_or([1, 1]),
             shown: None,
             told: None,
@@ -184,15 +198,20 @@ impl Studio {
                             self.history.forget_faces();
                         }
                         self.ordered = None;
+                        self.aside = None;
+                        self.split.forget();
+                        self.gallery.forget();
                         self.changed(ui);
                     }
                     self.scene = name;
                     self.take_cast(*cast, ui);
                 }
+                News::Aside(order, drawn) => self.take_aside(&order, drawn, ui),
                 News::Pointed(answer) => self.take_answer(*answer, ui),
                 News::Film(done) => self.filming.done = done,
                 News::StyleChanged => {
                     let name = self.sheet.name().to_owned();
+                    self.split.forget();
                     self.take_style(&name, ui);
                 }
             }
@@ -339,6 +358,9 @@ impl Studio {
         if pressed(Modifiers::NONE, Key::Num5) {
             self.move_camera(ui, |point| point.is_parallel = !point.is_parallel);
         }
+        if pressed(Modifiers::NONE, Key::B) {
+            self.split.is_on = !self.split.is_on;
+        }
         if pressed(Modifiers::NONE, Key::Home) {
             self.viewpoint = None;
             self.changed(ui);
@@ -439,26 +461,9 @@ impl Studio {
                 {
                     self.save(Take::Style);
                 }
-                // The list takes what is left, however long the name: a row that is too wide widens the panel.
-                let shown = egui::ComboBox::from_id_salt("presets")
-                    .width(ui.available_width())
-                    .height(420.0)
-                    .truncate()
-                    .selected_text(self.sheet.name())
-                    .show_ui(ui, |ui| {
-                        for preset in presets() {
-                            let is_own = preset.name == self.sheet.name();
-                            if ui.selectable_label(is_own, preset.name).clicked() && !is_own {
-                                chosen = Some(preset.name);
-                            }
-                        }
-                    });
-                crate::panel::name_it(&shown.response, "Style");
-                let place = presets()
-                    .iter()
-                    .position(|preset| preset.name == self.sheet.name());
-                let there = stepped(&shown.response, place.unwrap_or(0), presets().len());
-                chosen = chosen.or(there.map(|there| presets()[there].name));
+                let split = ui.toggle_value(&mut self.split.is_on, "Before");
+                split.on_hover_text("B: the style as it was opened, left of a handle to drag");
+                chosen = self.show_gallery(ui);
             });
         });
         if let Some(name) = chosen {
@@ -513,12 +518,14 @@ impl Studio {
             .as_ref()
             .is_some_and(|(picture, _)| has(&full, &picture.order));
         let is_asked = self.ordered.as_ref().is_some_and(|order| has(&full, order));
+        if is_done && is_still {
+            self.ask_aside();
+        }
         if is_done || is_asked {
             return;
         }
         if is_still || self.shown.is_none() {
-            self.ordered = Some(full.clone());
-            self.host.draw(full);
+            self.order_picture(full);
             return;
         }
 
@@ -537,8 +544,14 @@ impl Studio {
             .is_some_and(|(picture, _)| picture.order.change == self.change);
         let is_free = self.ordered.as_ref().is_none_or(|order| !order.is_draft);
         if is_free && !is_drawn {
-            self.ordered = Some(draft.clone());
-            self.host.draw(draft);
+            self.order_picture(draft);
         }
+    }
+
+    /// Asks for a picture, in place of one beside it that waits.
+    fn order_picture(&mut self, order: Order) {
+        self.aside = None;
+        self.ordered = Some(order.clone());
+        self.host.draw(order);
     }
 }

@@ -6,10 +6,14 @@
     reason = "tests fail by panicking"
 )]
 
+#[path = "studio/gallery.rs"]
+mod gallery;
 #[path = "studio/keyboard.rs"]
 mod keyboard;
 #[path = "studio/pointing.rs"]
 mod pointing;
+#[path = "studio/split.rs"]
+mod split;
 #[path = "studio/stops.rs"]
 mod stops;
 #[path = "studio/timeline.rs"]
@@ -17,8 +21,8 @@ mod timeline;
 
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, vec2};
-use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
+use egui_kittest::{Harness, HarnessBuilder, TestRenderer};
 use npr_stylesheet::{Field, Form, Stated, fields};
 use npr_view::{Film, Host, News, Order, Picture, Question, Sheet, Studio, Take, Viewpoint};
 use std::cell::RefCell;
@@ -28,12 +32,30 @@ use std::rc::Rc;
 #[derive(Default)]
 struct Asked {
     orders: Vec<Order>,
+    asides: Vec<Order>,
     opened: Vec<String>,
     saved: Vec<(Take, String)>,
     questions: Vec<Question>,
     films: Vec<(Film, Order)>,
     cancelled: usize,
     news: Vec<News>,
+}
+
+/// A picture of the colour that an order has lines of; white where it says none.
+fn painted(order: Order) -> Box<Picture> {
+    let color = order.overrides.iter().find_map(|text| {
+        let color: npr_stylesheet::Color = text.strip_prefix("line.color=")?.parse().ok()?;
+        Some([color.r, color.g, color.b, 255])
+    });
+    let pixels = (order.size[0] * order.size[1]) as usize;
+    Box::new(Picture {
+        rgba: color.unwrap_or([255; 4]).repeat(pixels),
+        viewpoint: order.viewpoint.unwrap_or(FRONT),
+        engine: "nobody".to_owned(),
+        seconds: 0.01,
+        notices: Vec::new(),
+        order,
+    })
 }
 
 /// A host that draws pictures of one colour.
@@ -51,16 +73,15 @@ impl Host for Easel {
 
     fn draw(&mut self, order: Order) {
         let mut asked = self.0.borrow_mut();
-        let pixels = (order.size[0] * order.size[1]) as usize;
         asked.orders.push(order.clone());
-        asked.news.push(News::Picture(Box::new(Picture {
-            rgba: vec![255; pixels * 4],
-            viewpoint: order.viewpoint.unwrap_or(FRONT),
-            engine: "nobody".to_owned(),
-            seconds: 0.01,
-            notices: Vec::new(),
-            order,
-        })));
+        asked.news.push(News::Picture(painted(order)));
+    }
+
+    fn draw_aside(&mut self, order: Order) {
+        let mut asked = self.0.borrow_mut();
+        asked.asides.push(order.clone());
+        let picture = painted(order.clone());
+        asked.news.push(News::Aside(Box::new(order), Ok(picture)));
     }
 
     fn point_at(&mut self, question: Question) {
@@ -118,12 +139,30 @@ fn studio_in_steps(
 
 /// The same with a style.
 fn studio_of(sheet: Sheet, size: [f32; 2], step_s: f32) -> (Harness<'static, Studio>, Easel) {
+    built(sheet, size, Harness::builder().with_step_dt(step_s))
+}
+
+/// A studio whose textures go to a renderer, and its host.
+fn studio_drawn_by(
+    renderer: impl TestRenderer + 'static,
+    overrides: &[&str],
+) -> (Harness<'static, Studio>, Easel) {
+    let overrides: Vec<String> = overrides.iter().map(|text| (*text).to_owned()).collect();
+    let sheet = Sheet::new("toon", Stated::preset("toon").unwrap(), &overrides).unwrap();
+    let builder = Harness::builder().with_step_dt(0.25).renderer(renderer);
+    built(sheet, [1000.0, 640.0], builder)
+}
+
+fn built(
+    sheet: Sheet,
+    size: [f32; 2],
+    builder: HarnessBuilder<Studio>,
+) -> (Harness<'static, Studio>, Easel) {
     let easel = Easel::default();
     let studio = Studio::new(sheet, None, Box::new(easel.clone()));
-    let harness = Harness::builder()
+    let harness = builder
         .with_size(vec2(size[0], size[1]))
         .with_max_steps(64)
-        .with_step_dt(step_s)
         .build_ui_state(|ui, studio: &mut Studio| studio.show(ui), studio);
     (harness, easel)
 }

@@ -21,7 +21,8 @@ use crate::viewpoint::{self, Seen, Viewed};
 use npr_core::camera::{Camera, Projection};
 use npr_gpu::engine::Engine;
 use npr_gpu::processor::Processor;
-use npr_render::{Renderer, RendererOptions, Spot};
+use npr_render::{Frame, Renderer, RendererOptions, Spot};
+use npr_scene::Material;
 use npr_stylesheet::Style;
 use npr_view::{Film, News, Order, Picture, Question, Take, Viewpoint};
 use std::cell::{Cell, RefCell};
@@ -51,6 +52,8 @@ const STROKES_S: f32 = 0.03;
 pub enum Ask {
     /// Draw a picture, asked for when so many scenes were known to be opened.
     Draw(Order, u64),
+    /// Draw a picture beside the present one, which stays as it is; any picture that is asked for later counts instead.
+    Aside(Order, u64),
     /// Open a scene, or a motion for the figure of the present one.
     Open(PathBuf),
     /// Tell what is at a place of a picture.
@@ -169,7 +172,15 @@ impl Painter {
                     self.next()
                 }
                 // Poses of another scene may not fit; at first there was none.
-                Ask::Draw(_, known) if known < self.opened.get() && self.opened.get() > 1 => {
+                Ask::Draw(_, known) | Ask::Aside(_, known)
+                    if known < self.opened.get() && self.opened.get() > 1 =>
+                {
+                    self.next()
+                }
+                Ask::Aside(order, _) => {
+                    if let Some(loaded) = &loaded {
+                        self.draw_aside(engine.as_ref(), loaded, &order);
+                    }
                     self.next()
                 }
                 Ask::Draw(order, known) => {
@@ -300,19 +311,7 @@ impl Painter {
         let job = self.job(&args)?;
         self.style_files.replace(watched(job.look.inputs()));
         self.is_stale.set(false);
-        let of_loaded = |order: &Order| {
-            let args = order_arguments(&self.args, &path, order);
-            playbill::painted(&args.drawing.pose.expressions, &loaded.scene)
-        };
-        let painted = of_loaded(first)?;
-        let mut loaded = Loaded {
-            scene: loaded.scene.clone(),
-            format: loaded.format,
-            volume: loaded.volume.clone(),
-            inputs: loaded.inputs.clone(),
-        };
-        loaded.scene.materials.clone_from(&painted);
-        let mut prepared = render::prepare(&job, loaded, None, &mut Progress::new(true))?;
+        let (painted, mut prepared) = self.prepared(&job, loaded)?;
         if let Some(lines) = &mut prepared.subject.lines {
             lines.keep_views(VIEWS);
         }
@@ -325,13 +324,17 @@ impl Painter {
         let mut order = first.clone();
         loop {
             self.draw_one((engine, (&prepared, &mut actor)), &path, &order, &mut kept)?;
-            let next = self.answer((engine, (&prepared, &mut actor)), &path, &mut kept);
+            let scene = (engine, (&prepared, &mut actor));
+            let next = self.answer(scene, (&path, loaded), &mut kept);
             let Ask::Draw(asked, _) = &next else {
                 return Ok(next);
             };
             let is_same = asked.style == first.style && asked.overrides == first.overrides;
-            let is_painted_so = asked.pose.face.expressions == first.pose.face.expressions
-                || of_loaded(asked).is_ok_and(|other| other == painted);
+            let is_painted_so = asked.pose.face.expressions == first.pose.face.expressions || {
+                let args = order_arguments(&self.args, &path, asked);
+                let expressions = &args.drawing.pose.expressions;
+                playbill::painted(expressions, &loaded.scene).is_ok_and(|other| other == painted)
+            };
             let serves = is_same || self.serves((&style, &prepared), &path, asked);
             if self.is_stale.get() || !serves || !is_painted_so {
                 return Ok(next);
@@ -340,16 +343,55 @@ impl Painter {
         }
     }
 
-    /// Tells what is on the pictures that were drawn until something else is asked for, and gives that.
+    /// A scene that was loaded, prepared for the picture of a job, and its materials in the colours of expressions.
+    fn prepared(&self, job: &Job<'_>, loaded: &Loaded) -> Result<(Vec<Material>, Prepared), Fault> {
+        let painted = playbill::painted(&job.args.drawing.pose.expressions, &loaded.scene)?;
+        let mut loaded = Loaded {
+            scene: loaded.scene.clone(),
+            format: loaded.format,
+            volume: loaded.volume.clone(),
+            inputs: loaded.inputs.clone(),
+        };
+        loaded.scene.materials.clone_from(&painted);
+        let prepared = render::prepare(job, loaded, None, &mut Progress::new(true))?;
+        Ok((painted, prepared))
+    }
+
+    /// Draws a picture beside the present one, of the scene prepared for it alone, and tells it.
+    fn draw_aside(&self, engine: &dyn Engine, loaded: &Loaded, order: &Order) {
+        let path = self.scene.borrow().clone();
+        let draw = || {
+            let start = Instant::now();
+            let args = order_arguments(&self.args, &path, order);
+            let (_, prepared) = self.prepared(&self.job(&args)?, loaded)?;
+            let limits = self.args.drawing.limits.limits();
+            let mut actor = Actor::new(prepared.scene.clone(), limits);
+            let scene = (engine, (&prepared, &mut actor));
+            let (mut found, camera, viewpoint) =
+                self.poised(scene, &path, order, &mut VecDeque::new())?;
+            let frame = found.renderer.draw(&camera)?;
+            Ok(picture((engine, &actor), order, viewpoint, (frame, start)))
+        };
+        let drawn: Result<Picture, Fault> = draw();
+        let drawn = drawn.map(Box::new).map_err(|fault| fault.message);
+        self.tell(News::Aside(Box::new(order.clone()), drawn));
+    }
+
+    /// Tells what is on the pictures that were drawn, and draws others beside them, until something else is asked for,
+    /// and gives that.
     fn answer<'a>(
         &self,
         (engine, (prepared, actor)): (&'a dyn Engine, (&'a Prepared, &mut Actor)),
-        path: &Path,
+        (path, loaded): (&Path, &Loaded),
         kept: &mut VecDeque<Kept<'a>>,
     ) -> Ask {
         loop {
             let question = match self.next() {
                 Ask::PointAt(question) => question,
+                Ask::Aside(order, known) if known >= self.opened.get() => {
+                    self.draw_aside(engine, loaded, &order);
+                    continue;
+                }
                 other => return other,
             };
             let scene = (prepared, &mut *actor);
@@ -513,7 +555,7 @@ impl Painter {
         let scene = (engine, (prepared, &mut *actor));
         let (mut found, camera, viewpoint) = self.poised(scene, path, order, kept)?;
         let drawn = Instant::now();
-        let mut frame = found.renderer.draw(&camera)?;
+        let frame = found.renderer.draw(&camera)?;
         if !order.is_draft {
             let passes: Duration = frame.times.iter().map(|pass| pass.time).sum();
             let strokes = drawn.elapsed().saturating_sub(passes);
@@ -523,15 +565,8 @@ impl Painter {
             self.full.replace(Some(order.clone()));
         }
         keep(kept, found);
-        frame.notices.extend_from_slice(actor.warnings());
-        self.tell(News::Picture(Box::new(Picture {
-            rgba: frame.rgba,
-            viewpoint,
-            engine: engine.describe(),
-            seconds: start.elapsed().as_secs_f32(),
-            notices: frame.notices,
-            order: order.clone(),
-        })));
+        let picture = picture((engine, actor), order, viewpoint, (frame, start));
+        self.tell(News::Picture(Box::new(picture)));
         Ok(())
     }
 
@@ -571,8 +606,29 @@ fn keep<'a>(kept: &mut VecDeque<Kept<'a>>, found: Kept<'a>) {
     kept.truncate(KEPT);
 }
 
-/// Adds what is asked for; a picture takes the place of one that waits at the end.
+/// A frame of an order as a picture, which was begun at a time.
+fn picture(
+    (engine, actor): (&dyn Engine, &Actor),
+    order: &Order,
+    viewpoint: Viewpoint,
+    (mut frame, start): (Frame, Instant),
+) -> Picture {
+    frame.notices.extend_from_slice(actor.warnings());
+    Picture {
+        rgba: frame.rgba,
+        viewpoint,
+        engine: engine.describe(),
+        seconds: start.elapsed().as_secs_f32(),
+        notices: frame.notices,
+        order: order.clone(),
+    }
+}
+
+/// Adds what is asked for; a picture takes the place of one that waits at the end, and of one beside it.
 fn push(queue: &mut VecDeque<Ask>, ask: Ask) {
+    if matches!(ask, Ask::Draw(..) | Ask::Aside(..)) {
+        queue.retain(|other| !matches!(other, Ask::Aside(..)));
+    }
     if matches!((queue.back(), &ask), (Some(Ask::Draw(..)), Ask::Draw(..))) {
         queue.pop_back();
     }

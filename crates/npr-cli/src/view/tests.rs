@@ -10,6 +10,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
+mod asides;
 mod endurance;
 mod films;
 mod hand;

@@ -55,15 +55,29 @@ impl Studio {
 
         // Draw the picture, as large as its shape allows.
         let place = fitted(room, size);
+        let first = self.first_in(room);
         if let Some((picture, texture)) = &self.shown {
             let place = fitted(room, picture.order.size);
             if picture.rgba.chunks_exact(4).any(|pixel| pixel[3] < 255) {
                 draw_squares(ui, place);
             }
             let whole = Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
-            ui.painter()
-                .image(texture.id(), place, whole, egui::Color32::WHITE);
+            let image = |clip: Rect, texture: &TextureHandle, place: Rect| {
+                let painter = ui.painter().with_clip_rect(clip.intersect(ui.clip_rect()));
+                painter.image(texture.id(), place, whole, egui::Color32::WHITE);
+            };
+            match &first {
+                None => image(room, texture, place),
+                Some((x, before, first)) => {
+                    let (mut left, mut right) = (room, room);
+                    left.max.x = *x;
+                    right.min.x = *x;
+                    image(left, first, *before);
+                    image(right, texture, place);
+                }
+            }
         }
+        self.show_handle(ui, place, first.is_some());
 
         // Say why a line is there that is clicked, or place guide points.
         if let Some(pointer) = response
@@ -104,7 +118,7 @@ impl Studio {
 }
 
 /// The largest rectangle of a picture's shape in the middle of a room.
-fn fitted(room: Rect, size: [u32; 2]) -> Rect {
+pub(super) fn fitted(room: Rect, size: [u32; 2]) -> Rect {
     let [width, height] = size.map(|side| side.max(1) as f32);
     let scale = (room.width() / width).min(room.height() / height);
     Rect::from_center_size(room.center(), egui::vec2(width, height) * scale)

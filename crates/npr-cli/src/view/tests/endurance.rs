@@ -199,6 +199,7 @@ impl Pane {
                     Key::ArrowRight,
                     Key::Num5,
                     Key::Home,
+                    Key::B,
                 ];
                 let key = keys[self.random.below(keys.len())];
                 self.press(Modifiers::NONE, key);

@@ -1,0 +1,103 @@
+//! Pictures beside the present one are what the command draws, and leave it as it is.
+
+use super::*;
+
+/// What the host tells of a picture beside the present one.
+fn beside(shop: &mut Shop, order: &Order) -> Result<Picture, String> {
+    shop.desk.draw_aside(order.clone());
+    shop.wait(|news| match news {
+        News::Aside(drawn, picture) if *drawn == *order => Some(picture.map(|picture| *picture)),
+        _ => None,
+    })
+}
+
+#[test]
+fn a_picture_beside_the_present_one_is_what_the_command_draws() {
+    let mut shop = Shop::new("--backend cpu");
+    for viewpoint in [None, Some(aside(false))] {
+        let now = order(&["line.color=#0000ff", "line.method=shape"], viewpoint);
+        let before = Order {
+            change: 0,
+            style: "toon".to_owned(),
+            overrides: vec!["line.width.base=4px".to_owned()],
+            ..now.clone()
+        };
+        let first = shop.picture(&now);
+        let picture = beside(&mut shop, &before).expect("a picture");
+        let png = encoder::png(before.size, &picture.rgba, false).expect("a file");
+        assert!(
+            shop.drawn(&shop.desk.words(&before)) == png,
+            "{viewpoint:?}"
+        );
+        assert_eq!(picture.viewpoint, first.viewpoint);
+        let again = shop.picture(&Order { change: 2, ..now });
+        assert!(again.rgba == first.rgba && again.rgba != picture.rgba);
+    }
+}
+
+#[test]
+fn a_picture_beside_that_cannot_be_drawn_is_told_of_and_the_present_one_goes_on() {
+    let mut shop = Shop::new("--backend cpu");
+    let now = order(&[], None);
+    let first = shop.picture(&now);
+    let broken = order(&["background=none.png"], None);
+    let fault = beside(&mut shop, &broken).expect_err("no such picture");
+    assert!(fault.contains("none.png"), "{fault}");
+    let again = shop.picture(&Order { change: 2, ..now });
+    assert!(again.rgba == first.rgba);
+}
+
+#[test]
+fn a_picture_that_is_asked_for_later_takes_the_place_of_one_beside_it() {
+    let mut shop = Shop::new("--backend cpu");
+    shop.picture(&order(&[], None));
+    let drafts = (2..5).map(|change| Order {
+        change,
+        is_draft: true,
+        ..order(&[], Some(aside(false)))
+    });
+    // All are asked for while the first is drawn.
+    let slow = Order {
+        size: [1600, 1200],
+        ..order(&[], Some(aside(true)))
+    };
+    shop.desk.draw(slow.clone());
+    thread::sleep(Duration::from_millis(20));
+    shop.desk.draw_aside(order(&["line.opacity=0.5"], None));
+    for draft in drafts {
+        shop.desk.draw(draft);
+    }
+    shop.wait(|news| match news {
+        News::Picture(picture) => (picture.order.change == 4).then_some(()),
+        News::Aside(..) => panic!("drawn before a later one"),
+        _ => None,
+    });
+}
+
+#[test]
+fn a_small_picture_of_a_preset_has_the_strokes_of_the_large_one() {
+    let mut shop = Shop::new("--backend cpu");
+    let ink_of = |picture: &Picture| {
+        let pixels = picture.rgba.chunks_exact(4);
+        let dark = pixels.filter(|pixel| pixel[1] < 100).count();
+        dark as f64 / f64::from(picture.order.size[0] * picture.order.size[1])
+    };
+    let now = Order {
+        size: [480, 360],
+        ..order(&[], Some(aside(false)))
+    };
+    let preset = Order {
+        style: "toon".to_owned(),
+        overrides: vec!["line.width.base=12px".to_owned()],
+        ..now.clone()
+    };
+    let large = ink_of(&shop.picture(&preset));
+    shop.picture(&now);
+    let small = Order {
+        size: [160, 120],
+        is_draft: true,
+        ..preset
+    };
+    let small = ink_of(&beside(&mut shop, &small).expect("a picture"));
+    assert!((small / large - 1.0).abs() < 0.15, "{small} of {large}");
+}
