@@ -64,7 +64,7 @@ const PRESETS: &[Preset] = presets![
     "pencil-outline" 4 "../presets/pencil-outline.toml",
     "charcoal" 4 "../presets/charcoal.toml",
     "chalkboard" 5 "../presets/chalkboard.toml",
-    "blueprint" 3 "../presets/blueprint.toml",
+    "blueprint" 4 "../presets/blueprint.toml",
     "cel-2" 4 "../presets/cel-2.toml",
     "cel-3" 4 "../presets/cel-3.toml",
     "coloured-lines" 5 "../presets/coloured-lines.toml",
@@ -93,6 +93,7 @@ const OLDER: &[Preset] = presets![
     "atmosphere" 4 "../presets/older/atmosphere-4.toml",
     "blueprint" 1 "../presets/older/blueprint-1.toml",
     "blueprint" 2 "../presets/older/blueprint-2.toml",
+    "blueprint" 3 "../presets/older/blueprint-3.toml",
     "brush" 1 "../presets/older/brush-1.toml",
     "brush" 2 "../presets/older/brush-2.toml",
     "brush" 3 "../presets/older/brush-3.toml",
@@ -403,7 +404,8 @@ mod tests {
     }
 
     /// The first version of presets with calm tones and rounded edges, where a newer one came after it.
-    const FIRST_CALM: [(&str, u32); 17] = [
+    const FIRST_CALM: [(&str, u32); 18] = [
+        ("blueprint", 3),
         ("brush", 4),
         ("chalkboard", 4),
         ("charcoal", 3),
