@@ -46,7 +46,7 @@ const PRESETS: &[Preset] = presets![
     "toon" 5 "../presets/toon.toml",
     "ink" 8 "../presets/ink.toml",
     "g-pen" 6 "../presets/g-pen.toml",
-    "technical" 5 "../presets/technical.toml",
+    "technical" 6 "../presets/technical.toml",
     "comic-silver" 5 "../presets/comic-silver.toml",
     "comic-modern" 7 "../presets/comic-modern.toml",
     "comic-light" 5 "../presets/comic-light.toml",
@@ -212,6 +212,7 @@ const OLDER: &[Preset] = presets![
     "technical" 2 "../presets/older/technical-2.toml",
     "technical" 3 "../presets/older/technical-3.toml",
     "technical" 4 "../presets/older/technical-4.toml",
+    "technical" 5 "../presets/older/technical-5.toml",
     "toon" 1 "../presets/older/toon-1.toml",
     "toon" 2 "../presets/older/toon-2.toml",
     "toon" 3 "../presets/older/toon-3.toml",
@@ -404,7 +405,7 @@ mod tests {
     }
 
     /// The first version of presets with calm tones and rounded edges, where a newer one came after it.
-    const FIRST_CALM: [(&str, u32); 18] = [
+    const FIRST_CALM: [(&str, u32); 19] = [
         ("blueprint", 3),
         ("brush", 4),
         ("chalkboard", 4),
@@ -423,6 +424,7 @@ mod tests {
         ("sketch", 3),
         ("smoke-comic", 4),
         ("stipple", 4),
+        ("technical", 5),
     ];
 
     /// The last version of presets that left painted eyes empty.
