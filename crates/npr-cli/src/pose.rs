@@ -126,6 +126,10 @@ impl Stance {
             stance.posture = Some(posture);
             stance.warnings.extend(warnings);
         }
+        if args.turned != Posture::default() {
+            let posture = stance.posture.get_or_insert_default();
+            posture.turns.extend(&args.turned.turns);
+        }
         Ok(stance)
     }
 

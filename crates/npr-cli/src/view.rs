@@ -12,7 +12,7 @@ use crate::fault::{Exit, Fault};
 use crate::message::quoted;
 use crate::style_source::StyleSource;
 use npr_stylesheet::{DEFAULT_PRESET, Stated};
-use npr_view::{Film, Host, News, Order, Question, Sheet, Studio, Take, shell_line};
+use npr_view::{Film, Host, News, Order, Pose, Question, Sheet, Studio, Take, shell_line};
 use order::{pose_of, render_arguments};
 use painter::{Ask, Painter};
 use std::path::{Path, PathBuf};
@@ -228,6 +228,12 @@ impl Host for Desk {
             }
             Take::Png | Take::Svg => self.ask(Ask::Save(take, order.clone())),
         }
+    }
+
+    fn save_pose(&mut self, pose: &Pose) -> Result<String, String> {
+        let path = save::pose(&self.folder, &self.scene, &self.said.args, pose);
+        let path = path.map_err(|fault| fault.message)?;
+        Ok(path.to_string_lossy().into_owned())
     }
 
     fn film_command(&self, film: &Film, order: &Order) -> String {

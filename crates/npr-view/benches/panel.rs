@@ -4,7 +4,7 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use npr_stylesheet::Stated;
-use npr_view::{Film, Host, News, Order, Question, Sheet, Studio, Take};
+use npr_view::{Film, Host, News, Order, Pose, Question, Sheet, Studio, Take};
 use std::hint::black_box;
 use toml::Value;
 
@@ -33,6 +33,10 @@ impl Host for Idle {
     }
 
     fn save(&mut self, _: Take, _: &Sheet, _: &Order) {}
+
+    fn save_pose(&mut self, _: &Pose) -> Result<String, String> {
+        Err(String::new())
+    }
 
     fn film_command(&self, _: &Film, order: &Order) -> String {
         self.command(order)

@@ -1,12 +1,12 @@
 //! Undo and redo.
 
-use crate::pose::Face;
+use crate::pose::{Face, Pose};
 use crate::sheet::Sheet;
 
 /// Most steps that can be undone.
 const STEPS_MAX: usize = 200;
 
-/// The styles and faces before and after the present ones.
+/// The styles, faces and turned bones before and after the present ones.
 #[derive(Debug, Default)]
 pub(crate) struct History {
     past: Vec<Step>,
@@ -20,14 +20,16 @@ pub(crate) struct History {
 enum Step {
     Style(Box<Sheet>),
     Face(Face),
+    Turns(Vec<(String, [f32; 3])>),
 }
 
 impl Step {
     /// Puts it in place, and keeps what was there.
-    fn swap(&mut self, sheet: &mut Sheet, face: &mut Face) {
+    fn swap(&mut self, sheet: &mut Sheet, pose: &mut Pose) {
         match self {
             Self::Style(other) => std::mem::swap(&mut **other, sheet),
-            Self::Face(other) => std::mem::swap(other, face),
+            Self::Face(other) => std::mem::swap(other, &mut pose.face),
+            Self::Turns(other) => std::mem::swap(other, &mut pose.turns),
         }
     }
 }
@@ -44,8 +46,14 @@ impl History {
         self.add(&key, || Step::Face(before.clone()));
     }
 
-    /// Forgets the faces: another scene is shown.
-    pub fn forget_faces(&mut self) {
+    /// Notes how bones are turned before a change of one, as [`History::note`] does.
+    pub fn note_turns(&mut self, before: &Pose, bone: &str) {
+        let key = format!("bone of the figure: {bone}");
+        self.add(&key, || Step::Turns(before.turns.clone()));
+    }
+
+    /// Forgets faces and turned bones: another scene is shown.
+    pub fn forget_figure(&mut self) {
         self.close();
         for steps in [&mut self.past, &mut self.future] {
             steps.retain(|step| matches!(step, Step::Style(_)));
@@ -74,20 +82,20 @@ impl History {
         (!self.past.is_empty(), !self.future.is_empty())
     }
 
-    /// Puts the style or the face before the last change in place of the present one.
-    pub fn undo(&mut self, sheet: &mut Sheet, face: &mut Face) {
+    /// Puts what was there before the last change in place of the present style, face or bones.
+    pub fn undo(&mut self, sheet: &mut Sheet, pose: &mut Pose) {
         self.close();
         if let Some(mut step) = self.past.pop() {
-            step.swap(sheet, face);
+            step.swap(sheet, pose);
             self.future.push(step);
         }
     }
 
     /// Takes the last undoing back.
-    pub fn redo(&mut self, sheet: &mut Sheet, face: &mut Face) {
+    pub fn redo(&mut self, sheet: &mut Sheet, pose: &mut Pose) {
         self.close();
         if let Some(mut step) = self.future.pop() {
-            step.swap(sheet, face);
+            step.swap(sheet, pose);
             self.past.push(step);
         }
     }
@@ -104,43 +112,52 @@ mod tests {
 
     const FACES: [&str; 2] = ["happy", "blink"];
 
+    const BONES: [&str; 2] = ["head", "spine"];
+
     proptest! {
         /// Every change of another key is a step; as many steps back lead to the first style, and forth to the last.
         #[test]
         fn as_many_steps_back_as_forth_lead_where_they_began(
-            changes in prop::collection::vec((0usize..5, 0u32..5, any::<bool>()), 0..20),
+            changes in prop::collection::vec((0usize..7, 0u32..5, any::<bool>()), 0..20),
         ) {
             let mut sheet = Sheet::new("toon", Stated::preset("toon").expect("a preset"), &[]).expect("a sheet");
-            let (mut face, mut history) = (Face::default(), History::default());
-            let first = (sheet.clone(), face.clone());
+            let (mut pose, mut history) = (Pose::default(), History::default());
+            let first = (sheet.clone(), pose.clone());
             for (key, fifths, closes) in changes {
-                let before = (sheet.clone(), face.clone());
+                let before = (sheet.clone(), pose.clone());
+                let (face, bone) = (key.wrapping_sub(3), key.wrapping_sub(5));
                 match KEYS.get(key) {
                     Some(key) => sheet.set(key, &Value::Float(f64::from(fifths) / 5.0)).expect("fits"),
                     None => {
                         let share = (fifths < 4).then_some(fifths as f32 / 5.0);
-                        face.set_share(FACES[key - KEYS.len()], share);
+                        match FACES.get(face) {
+                            Some(name) => pose.face.set_share(name, share),
+                            None => pose.set_turn(BONES[bone], share.map(|share| [share; 3])),
+                        }
                     }
                 }
                 if sheet != before.0 {
                     history.note(&before.0, KEYS[key]);
                 }
-                if face != before.1 {
-                    history.note_face(&before.1, FACES[key - KEYS.len()]);
+                if pose.face != before.1.face {
+                    history.note_face(&before.1.face, FACES[face]);
+                }
+                if pose.turns != before.1.turns {
+                    history.note_turns(&before.1, BONES[bone]);
                 }
                 if closes {
                     history.close();
                 }
             }
-            let last = (sheet.clone(), face.clone());
+            let last = (sheet.clone(), pose.clone());
             while history.can().0 {
-                history.undo(&mut sheet, &mut face);
+                history.undo(&mut sheet, &mut pose);
             }
-            prop_assert_eq!((&sheet, &face), (&first.0, &first.1));
+            prop_assert_eq!((&sheet, &pose), (&first.0, &first.1));
             while history.can().1 {
-                history.redo(&mut sheet, &mut face);
+                history.redo(&mut sheet, &mut pose);
             }
-            prop_assert_eq!((&sheet, &face), (&last.0, &last.1));
+            prop_assert_eq!((&sheet, &pose), (&last.0, &last.1));
         }
     }
 }

@@ -149,6 +149,14 @@ pub trait Host {
     /// Writes a file; [`News`] tells under which name.
     fn save(&mut self, take: Take, sheet: &Sheet, order: &Order);
 
+    /// Writes the bones of a pose, those of its file and those that are turned besides, into a file for `--pose`, and
+    /// gives its path.
+    ///
+    /// # Errors
+    ///
+    /// Why it is not written, in one line.
+    fn save_pose(&mut self, pose: &Pose) -> Result<String, String>;
+
     /// A command line that draws a film, ready for a shell.
     fn film_command(&self, film: &Film, order: &Order) -> String;
 

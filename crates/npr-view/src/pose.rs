@@ -13,6 +13,10 @@ pub struct Pose {
     pub motion: Option<String>,
     /// The file of bones that are turned.
     pub bones: Option<String>,
+    /// How far bones of a figure are turned from rest, by their names, each once: angles about the axes x, y and z of
+    /// the world, in degrees, about x first. They count where `clip` or `bones` turn the same bone. No option says
+    /// them: they are saved as a file of bones.
+    pub turns: Vec<(String, [f32; 3])>,
     /// What the face of a figure does besides.
     pub face: Face,
 }
@@ -29,21 +33,28 @@ pub struct Face {
 impl Face {
     /// How much an expression shows; none where nobody says it.
     pub fn share(&self, name: &str) -> Option<f32> {
-        let mut all = self.expressions.iter();
-        all.find_map(|(other, share)| (other == name).then_some(*share))
+        said(&self.expressions, name)
     }
 
     /// Lets an expression show so much; with none, as much as clip and file say.
     pub fn set_share(&mut self, name: &str, share: Option<f32>) {
-        let place = self.expressions.iter().position(|(other, _)| other == name);
-        match (place, share) {
-            (Some(place), Some(share)) => self.expressions[place].1 = share,
-            (Some(place), None) => drop(self.expressions.remove(place)),
-            (None, share) => {
-                let said = share.map(|share| (name.to_owned(), share));
-                self.expressions.extend(said);
-            }
-        }
+        say(&mut self.expressions, name, share);
+    }
+}
+
+/// What a list says of a name; none where it does not name it.
+fn said<T: Copy>(list: &[(String, T)], name: &str) -> Option<T> {
+    let mut all = list.iter();
+    all.find_map(|(other, value)| (other == name).then_some(*value))
+}
+
+/// Lets a list say a value of a name; with none, it names it no more.
+fn say<T>(list: &mut Vec<(String, T)>, name: &str, value: Option<T>) {
+    let place = list.iter().position(|(other, _)| other == name);
+    match (place, value) {
+        (Some(place), Some(value)) => list[place].1 = value,
+        (Some(place), None) => drop(list.remove(place)),
+        (None, value) => list.extend(value.map(|value| (name.to_owned(), value))),
     }
 }
 
@@ -57,6 +68,16 @@ pub enum LookAt {
 }
 
 impl Pose {
+    /// How far a bone is turned, as in [`Pose::turns`]; none where nobody says it.
+    pub fn turn(&self, bone: &str) -> Option<[f32; 3]> {
+        said(&self.turns, bone)
+    }
+
+    /// Turns a bone so far; with none, as far as clip and file say.
+    pub fn set_turn(&mut self, bone: &str, angles: Option<[f32; 3]>) {
+        say(&mut self.turns, bone, angles);
+    }
+
     /// The pose without what it does not show: a motion of which nothing plays.
     pub(crate) fn said(&self) -> Self {
         Self {
@@ -65,7 +86,7 @@ impl Pose {
         }
     }
 
-    /// The pose as options of a command line.
+    /// The pose as options of a command line, which say nothing of [`Pose::turns`].
     pub fn options(&self) -> Vec<String> {
         let mut words = Vec::new();
         let named = [
@@ -98,6 +119,8 @@ pub struct Cast {
     pub flows: bool,
     /// Names of the expressions of its figure.
     pub expressions: Vec<String>,
+    /// Names of the bones of its figure, each behind the one that it hangs on.
+    pub bones: Vec<String>,
     /// Whether its figure can look somewhere.
     pub can_look: bool,
     /// The file of the motion, where one is played.
@@ -127,6 +150,7 @@ mod tests {
             time_s: Some(-0.1),
             motion: Some("a b.vrma".to_owned()),
             bones: Some("bow.json".to_owned()),
+            turns: Vec::new(),
             face: Face {
                 expressions: vec![("happy".to_owned(), 0.3)],
                 look_at: Some(LookAt::Place([0.0, -1.5, 2.0])),

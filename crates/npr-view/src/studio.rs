@@ -6,6 +6,7 @@ mod figure;
 mod filming;
 mod gallery;
 mod guides;
+mod joints;
 mod split;
 mod timeline;
 mod why;
@@ -24,6 +25,7 @@ use crate::sheet::Sheet;
 use crate::viewpoint::Viewpoint;
 use crate::why::Asked;
 use gallery::Gallery;
+use joints::SavedPose;
 use split::Split;
 use timeline::Timeline;
 
@@ -61,6 +63,7 @@ pub struct Studio {
     split: Split,
     /// Pictures of the presets.
     gallery: Gallery,
+    saved_pose: SavedPose,
     /// Width and height that a full picture has now, in pixels.
     size: [u32; 2],
     shown: Option<(Picture, TextureHandle)>,
@@ -97,6 +100,7 @@ impl Studio {
             ordered: None,
             aside: None,
             gallery: Gallery::default(),
+            saved_pose: SavedPose::default(),
             size: size.unwrap_or([1, 1]),
             shown: None,
             told: None,
@@ -195,7 +199,7 @@ impl Studio {
                         self.viewpoint = self.viewpoint.filter(|_| self.scene == name);
                         if self.scene != name {
                             self.pose = Pose::default();
-                            self.history.forget_faces();
+                            self.history.forget_figure();
                         }
                         self.ordered = None;
                         self.aside = None;
@@ -298,12 +302,12 @@ impl Studio {
     }
 
     fn undo(&mut self, ui: &Ui) {
-        self.history.undo(&mut self.sheet, &mut self.pose.face);
+        self.history.undo(&mut self.sheet, &mut self.pose);
         self.changed(ui);
     }
 
     fn redo(&mut self, ui: &Ui) {
-        self.history.redo(&mut self.sheet, &mut self.pose.face);
+        self.history.redo(&mut self.sheet, &mut self.pose);
         self.changed(ui);
     }
 
@@ -312,7 +316,11 @@ impl Studio {
     }
 
     fn copy_command(&mut self, ui: &Ui) {
-        ui.ctx().copy_text(self.host.command(&self.order()));
+        let order = self.order();
+        let Some(order) = self.told_order(order) else {
+            return;
+        };
+        ui.ctx().copy_text(self.host.command(&order));
         let text = "the command line of this picture is in the clipboard";
         self.told = Some((text.to_owned(), false));
     }

@@ -8,6 +8,8 @@
 
 #[path = "studio/gallery.rs"]
 mod gallery;
+#[path = "studio/joints.rs"]
+mod joints;
 #[path = "studio/keyboard.rs"]
 mod keyboard;
 #[path = "studio/pointing.rs"]
@@ -24,7 +26,7 @@ use egui::{Key, Modifiers, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
 use egui_kittest::{Harness, HarnessBuilder, TestRenderer};
 use npr_stylesheet::{Field, Form, Stated, fields};
-use npr_view::{Film, Host, News, Order, Picture, Question, Sheet, Studio, Take, Viewpoint};
+use npr_view::{Film, Host, News, Order, Picture, Pose, Question, Sheet, Studio, Take, Viewpoint};
 use std::cell::RefCell;
 use std::rc::Rc;
 
@@ -36,6 +38,7 @@ struct Asked {
     opened: Vec<String>,
     saved: Vec<(Take, String)>,
     questions: Vec<Question>,
+    poses: Vec<Pose>,
     films: Vec<(Film, Order)>,
     cancelled: usize,
     news: Vec<News>,
@@ -98,6 +101,12 @@ impl Host for Easel {
 
     fn save(&mut self, take: Take, sheet: &Sheet, _: &Order) {
         self.0.borrow_mut().saved.push((take, sheet.file()));
+    }
+
+    fn save_pose(&mut self, pose: &Pose) -> Result<String, String> {
+        let mut asked = self.0.borrow_mut();
+        asked.poses.push(pose.clone());
+        Ok(format!("pose{}.json", asked.poses.len()))
     }
 
     fn film_command(&self, film: &Film, order: &Order) -> String {

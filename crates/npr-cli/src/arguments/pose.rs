@@ -2,6 +2,7 @@
 
 use super::point::Point;
 use clap::Args;
+use npr_scene::Posture;
 use std::path::PathBuf;
 
 /// What the user said about the moment that is drawn.
@@ -23,6 +24,9 @@ pub struct PoseArguments {
     /// (.json).
     #[arg(long, value_name = "FILE")]
     pub pose: Option<PathBuf>,
+    /// Bones that are turned by hand, in a window; they count before those of the file.
+    #[arg(skip)]
+    pub turned: Posture,
     /// An expression of a VRM by its name, and how much it shows, 0 to 1 [default share: 1]; repeatable.
     #[arg(long = "expression", value_name = "NAME[=SHARE]", value_parser = expression)]
     pub expressions: Vec<ExpressionShare>,

@@ -4,6 +4,8 @@ use crate::arguments::{
     AnimateArguments, CameraArguments, ExpressionShare, FilmArguments, LineArguments, LookedAt,
     Point, PoseArguments, RenderArguments, SheetArguments, Size, Switch, ViewArguments,
 };
+use npr_core::math::{cos_f64, sin_f64};
+use npr_scene::{Bone, Posture};
 use npr_view::{Face, Film, LookAt, Order, Pose};
 use std::path::{Path, PathBuf};
 
@@ -73,6 +75,25 @@ pub fn film_arguments(
     }
 }
 
+/// The bones that a pose turns by hand: about x first, then y, then z.
+pub fn turned(pose: &Pose) -> Posture {
+    let turns = pose.turns.iter().filter_map(|(name, angles)| {
+        let half = angles.map(|angle| f64::from(angle).to_radians() * 0.5);
+        let [(sx, cx), (sy, cy), (sz, cz)] = half.map(|half| (sin_f64(half), cos_f64(half)));
+        let turn = [
+            sx * cy * cz - cx * sy * sz,
+            cx * sy * cz + sx * cy * sz,
+            cx * cy * sz - sx * sy * cz,
+            cx * cy * cz + sx * sy * sz,
+        ];
+        Some((Bone::named(name)?, turn.map(|value| value as f32)))
+    });
+    Posture {
+        turns: turns.collect(),
+        hips: None,
+    }
+}
+
 /// The pose of a studio as arguments.
 fn pose_arguments(pose: &Pose) -> PoseArguments {
     let expression = |(name, share): &(String, f32)| ExpressionShare {
@@ -84,6 +105,7 @@ fn pose_arguments(pose: &Pose) -> PoseArguments {
         time: pose.time_s,
         motion: pose.motion.as_ref().map(PathBuf::from),
         pose: pose.bones.as_ref().map(PathBuf::from),
+        turned: turned(pose),
         expressions: pose.face.expressions.iter().map(expression).collect(),
         look_at: pose.face.look_at.map(|look_at| match look_at {
             LookAt::Camera => LookedAt::Camera,
@@ -116,6 +138,54 @@ pub fn pose_of(args: &PoseArguments) -> Pose {
         time_s: args.time,
         motion: args.motion.as_ref().map(text),
         bones: args.pose.as_ref().map(text),
+        turns: Vec::new(),
         face: face_of(args),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A vector that a quaternion turns.
+    fn carried([x, y, z, w]: [f32; 4], v: [f32; 3]) -> [f32; 3] {
+        let cross = |a: [f32; 3], b: [f32; 3]| {
+            [
+                a[1] * b[2] - a[2] * b[1],
+                a[2] * b[0] - a[0] * b[2],
+                a[0] * b[1] - a[1] * b[0],
+            ]
+        };
+        let once = cross([x, y, z], v);
+        let twice = cross([x, y, z], once);
+        [0, 1, 2].map(|i| v[i] + 2.0 * (w * once[i] + twice[i]))
+    }
+
+    #[test]
+    fn angles_turn_about_x_first_then_y_then_z() {
+        let cases = [
+            ([90.0, 0.0, 0.0], [0.0, 0.0, 1.0]),
+            ([0.0, 90.0, 0.0], [0.0, 1.0, 0.0]),
+            ([0.0, 0.0, 90.0], [-1.0, 0.0, 0.0]),
+            ([90.0, 90.0, 0.0], [1.0, 0.0, 0.0]),
+            ([90.0, 90.0, 90.0], [0.0, 1.0, 0.0]),
+            ([90.0, 0.0, 90.0], [0.0, 0.0, 1.0]),
+        ];
+        for (angles, wanted) in cases {
+            let mut pose = Pose::default();
+            pose.set_turn("head", Some(angles));
+            pose.set_turn("tail", Some(angles));
+            let posture = turned(&pose);
+            assert_eq!(posture.turns.len(), 1);
+            let up = carried(
+                posture.turns[&Bone::named("head").expect("a bone")],
+                [0.0, 1.0, 0.0],
+            );
+            let near = up
+                .iter()
+                .zip(wanted)
+                .all(|(a, b): (&f32, f32)| (a - b).abs() < 1e-6);
+            assert!(near, "{angles:?}: {up:?}, not {wanted:?}");
+        }
     }
 }

@@ -81,6 +81,8 @@ pub struct Painter {
     /// The files that scene and style are made from, with the time of their last change.
     scene_files: RefCell<Vec<Watched>>,
     style_files: RefCell<Vec<Watched>>,
+    /// The style that was read last, for the renderer of its order, which takes it.
+    read: RefCell<Option<(Order, Style, RendererOptions)>>,
     /// Whether files of the style have changed since it was read.
     is_stale: Cell<bool>,
     scene: RefCell<PathBuf>,
@@ -132,6 +134,7 @@ impl Painter {
             queue: RefCell::new(VecDeque::from([first])),
             scene_files: RefCell::default(),
             style_files: RefCell::default(),
+            read: RefCell::default(),
             is_stale: Cell::new(false),
             full: RefCell::default(),
             strokes_s: Cell::new(0.0),
@@ -320,6 +323,8 @@ impl Painter {
 
         // Draw, and go on with what the preparation serves: drafts may be of one that is a little off.
         let style = job.look.style.clone();
+        self.read
+            .replace(Some((first.clone(), job.look.style, job.options)));
         let mut kept = VecDeque::new();
         let mut order = first.clone();
         loop {
@@ -363,7 +368,10 @@ impl Painter {
         let draw = || {
             let start = Instant::now();
             let args = order_arguments(&self.args, &path, order);
-            let (_, prepared) = self.prepared(&self.job(&args)?, loaded)?;
+            let job = self.job(&args)?;
+            let (_, prepared) = self.prepared(&job, loaded)?;
+            let read = (order.clone(), job.look.style, job.options);
+            self.read.replace(Some(read));
             let limits = self.args.drawing.limits.limits();
             let mut actor = Actor::new(prepared.scene.clone(), limits);
             let scene = (engine, (&prepared, &mut actor));
@@ -441,6 +449,8 @@ impl Painter {
         if serves && !order.is_draft {
             self.style_files.replace(watched(job.look.inputs()));
         }
+        self.read
+            .replace(Some((order.clone(), job.look.style, job.options)));
         serves
     }
 
@@ -474,6 +484,7 @@ impl Painter {
         (args, order): (&RenderArguments, &Order),
         kept: &mut VecDeque<Kept<'a>>,
     ) -> Result<Kept<'a>, Fault> {
+        let read = self.read.take();
         let (is_rough, strokes_of) = (self.is_rough(order), self.strokes_of(order));
         let draws = |other: &Kept<'_>| {
             let is_alike = other.is_rough == is_rough && other.strokes_of == strokes_of;
@@ -487,15 +498,20 @@ impl Painter {
         if let Some(found) = found.and_then(|place| kept.remove(place)) {
             return Ok(found);
         }
-        let job = self.job(args)?;
-        let mut style = job.look.style;
+        let (mut style, options) = match read {
+            Some((of, style, options)) if of == *order => (style, options),
+            _ => {
+                let job = self.job(args)?;
+                (job.look.style, job.options)
+            }
+        };
         if is_rough {
             style = style.with_shapes_for_strokes().unwrap_or(style);
         }
         let options = RendererOptions {
             smoke: prepared.smoke.clone(),
             strokes_of,
-            ..job.options
+            ..options
         };
         Ok(Kept {
             order: order.clone(),
@@ -679,4 +695,59 @@ fn have_changed(files: &RefCell<Vec<Watched>>) -> bool {
     let is_changed = now != before;
     files.replace(now);
     is_changed
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arguments::{Arguments, Command};
+    use clap::Parser;
+    use std::sync::mpsc::channel;
+
+    #[test]
+    fn a_style_is_read_once_for_a_draft() {
+        // Lay a painter before a triangle, with a style in a file.
+        let folder = tempfile::tempdir().expect("a folder");
+        let [scene, file] = ["a.obj", "my.toml"].map(|name| folder.path().join(name));
+        let write = |path: &Path, text: &str| {
+            let output = Output::of(path).expect("a place");
+            output.write(text.as_bytes()).expect("room");
+        };
+        write(&scene, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+        write(&file, "extends = \"ink\"\n");
+        let words = ["npr", "view", "--backend", "cpu"].map(Into::into);
+        let words = words.into_iter().chain([scene.clone().into_os_string()]);
+        let parsed = Arguments::try_parse_from(words).expect("a right line");
+        let Command::View(said) = parsed.command else {
+            panic!("another command");
+        };
+        let ((_, asks), (news, _)) = (channel(), channel());
+        let taken = (folder.path().to_owned(), Arc::default());
+        let painter = Painter::new(said.0.args, asks, news, Box::new(|| {}), taken);
+        let order = Order {
+            change: 1,
+            style: file.to_string_lossy().into_owned(),
+            overrides: Vec::new(),
+            viewpoint: None,
+            pose: npr_view::Pose::default(),
+            size: [40, 30],
+            is_draft: true,
+        };
+        let args = order_arguments(&painter.args, &scene, &order);
+        let job = painter.job(&args).expect("a style");
+        let limits = painter.args.drawing.limits.limits();
+        let loaded = Source::of(&scene).load(&limits, None).expect("a scene");
+        let (_, prepared) = painter.prepared(&job, &loaded).expect("a model");
+
+        // The renderer has the style that was read to see whether the scene serves it, and the next reads it anew.
+        assert!(painter.serves((&job.look.style, &prepared), &scene, &order));
+        std::fs::remove_file(&file).expect("it is there");
+        let made = || {
+            let scene = (&Processor as &dyn Engine, &prepared);
+            let made = painter.renderer(scene, (&args, &order), &mut VecDeque::new());
+            made.map(|kept| kept.style).map_err(|fault| fault.message)
+        };
+        assert_eq!(made(), Ok(job.look.style.clone()));
+        assert!(made().is_err_and(|text| text.contains("my.toml")));
+    }
 }

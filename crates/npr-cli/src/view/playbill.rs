@@ -30,6 +30,11 @@ pub fn cast_of(scene: &Scene, motion: Option<&Path>, has_own_camera: bool) -> Ca
         clips: clips.collect(),
         flows: has_moving_pictures(scene),
         expressions: faces.map(|face| face.name.clone()).collect(),
+        bones: scene
+            .bones()
+            .keys()
+            .map(|bone| bone.name().to_owned())
+            .collect(),
         can_look: scene.figure.as_ref().is_some_and(Figure::can_look),
         motion: motion.map(|path| path.to_string_lossy().into_owned()),
         has_own_camera,

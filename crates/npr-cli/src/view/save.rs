@@ -1,16 +1,19 @@
 //! What is taken away from a studio, as files.
 
-use super::order::{film_arguments, order_arguments};
+use super::order::{film_arguments, order_arguments, turned};
 use crate::animate;
 use crate::arguments::{LineArguments, LineFormat, LinesArguments, SheetArguments, ViewArguments};
 use crate::fault::{Exit, Fault};
+use crate::input::read_file;
 use crate::lines;
 use crate::look::Look;
 use crate::output::{Output, folder_of};
 use crate::progress::Progress;
 use crate::render;
 use crate::style_source::StyleSource;
-use npr_view::{Film, Order, Sheet, Take};
+use npr_scene::{Bone, Posture};
+use npr_view::{Film, Order, Pose, Sheet, Take};
+use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
 
 /// Most numbers that are tried for a name that is still free.
@@ -26,6 +29,44 @@ pub fn style(folder: &Path, scene: &Path, sheet: &Sheet) -> Result<PathBuf, Faul
         Some(name) => sheet.file_over(&name.to_string_lossy()),
         None => sheet.file(),
     };
+    Output::of(&path)?.write(text.as_bytes())?;
+    Ok(path)
+}
+
+/// Writes the bones of a pose into a file named after the scene, as `--pose` reads them, and gives its path: those of
+/// the file that it names, and those that it turns besides.
+pub fn pose(
+    folder: &Path,
+    scene: &Path,
+    args: &ViewArguments,
+    pose: &Pose,
+) -> Result<PathBuf, Fault> {
+    // Find the bones.
+    let mut posture = Posture::default();
+    if let Some(file) = &pose.bones {
+        let limits = args.drawing.limits.limits();
+        let bytes = read_file(Path::new(file), limits.file_bytes)?;
+        let read = Posture::read(&bytes, &limits);
+        let (read, _) = read.map_err(|fault| Fault::new(Exit::Input, fault))?;
+        posture = read;
+    }
+    posture.turns.extend(turned(pose).turns);
+
+    // Write them with every digit: a file draws the same bytes.
+    let mut bones = Map::new();
+    for bone in Bone::all() {
+        let mut said = Map::new();
+        let hips = posture.hips.filter(|_| bone == Bone::HIPS);
+        let numbers = |list: &[f32]| list.iter().copied().map(f64::from).collect::<Value>();
+        said.extend(hips.map(|way| ("position".to_owned(), numbers(&way))));
+        let turn = posture.turns.get(&bone);
+        said.extend(turn.map(|turn| ("rotation".to_owned(), numbers(turn))));
+        if !said.is_empty() {
+            bones.insert(bone.name().to_owned(), said.into());
+        }
+    }
+    let path = free_path(folder, scene, ".pose.json")?;
+    let text = format!("{:#}\n", json!({ "pose": bones }));
     Output::of(&path)?.write(text.as_bytes())?;
     Ok(path)
 }

@@ -1,4 +1,4 @@
-//! The face of a figure: sliders of its expressions, and what it looks at.
+//! A figure: sliders of its expressions, what it looks at, and its joints.
 
 use egui::{Button, CollapsingHeader, ComboBox, RichText, Slider, Ui};
 
@@ -13,7 +13,7 @@ const NAME_WIDTH: f32 = 118.0;
 const WORDS: &str = "figure face expression look at";
 
 impl Studio {
-    /// Shows expressions, and what the figure looks at, where the scene has such a figure.
+    /// Shows expressions, what the figure looks at, and its joints, where the scene has such a figure.
     pub(super) fn show_figure(&mut self, ui: &mut Ui) {
         // Find what is searched for.
         let search = self.panel.search.to_lowercase();
@@ -25,7 +25,8 @@ impl Studio {
         let names = cast.expressions.iter().filter(|name| is_hit(name));
         let names: Vec<String> = names.cloned().collect();
         let can_look = cast.can_look && is_hit("eyes");
-        if names.is_empty() && !can_look {
+        let bones = self.searched_bones();
+        if names.is_empty() && !can_look && bones.is_empty() {
             return;
         }
 
@@ -43,6 +44,7 @@ impl Studio {
                     touched = Some(name.clone());
                 }
             }
+            self.show_joints(ui, &bones);
         });
         if let Some(what) = touched
             && face != self.pose.face

@@ -68,10 +68,12 @@ impl Studio {
             if copy.clicked()
                 && let Some(film) = film
             {
-                let command = self.host.film_command(&film, &self.film_order(&film));
-                ui.ctx().copy_text(command);
-                let text = "the command line of this film is in the clipboard";
-                self.told = Some((text.to_owned(), false));
+                let order = self.film_order(&film);
+                if let Some(order) = self.told_order(order) {
+                    ui.ctx().copy_text(self.host.film_command(&film, &order));
+                    let text = "the command line of this film is in the clipboard";
+                    self.told = Some((text.to_owned(), false));
+                }
                 ui.close();
             }
         });

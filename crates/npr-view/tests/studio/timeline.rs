@@ -16,7 +16,7 @@ fn cast() -> Cast {
 }
 
 /// A studio whose scene has a cast, once it is shown in full, and its host.
-fn stage(size: [f32; 2], pose: Pose, cast: Cast) -> (Harness<'static, Studio>, Easel) {
+pub fn stage(size: [f32; 2], pose: Pose, cast: Cast) -> (Harness<'static, Studio>, Easel) {
     let easel = Easel::default();
     easel.0.borrow_mut().news = vec![opened("a.glb", cast)];
     let sheet = Sheet::new("toon", Stated::preset("toon").unwrap(), &[]).unwrap();
@@ -29,11 +29,11 @@ fn stage(size: [f32; 2], pose: Pose, cast: Cast) -> (Harness<'static, Studio>, E
     (harness, easel)
 }
 
-fn opened(name: &str, cast: Cast) -> News {
+pub fn opened(name: &str, cast: Cast) -> News {
     News::Scene(name.to_owned(), Box::new(cast))
 }
 
-fn last(easel: &Easel) -> Order {
+pub fn last(easel: &Easel) -> Order {
     easel.0.borrow().orders.last().unwrap().clone()
 }
 

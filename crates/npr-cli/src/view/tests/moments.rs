@@ -3,6 +3,7 @@
 use super::*;
 use npr_scene::Eyes;
 use npr_scene::testing::{Vrm, avatar, gesture, puppet, wing};
+use npr_scene::{Limits, Posture};
 use npr_view::{Cast, Face, LookAt};
 
 /// A pose by clip and time.
@@ -213,4 +214,45 @@ fn expressions_are_shown_as_the_command_has_them() {
     let both = smiling(&[("happy", 0.5), ("blink", 0.0), ("happy", 0.25)]);
     shop.checked(style, &both, Some(near));
     assert!(shop.checked(style, &Pose::default(), Some(near)) == rest);
+}
+
+#[test]
+fn joints_that_are_turned_are_drawn_by_the_command_with_the_file_that_is_saved() {
+    // A head that a file turns, and an arm that is turned in the window.
+    let nod = br#"{"pose":{"head":{"rotation":[0.2,0,0,1]},"leftUpperArm":{"rotation":[0,0.3,0,1]},
+        "hips":{"position":[0.1,0,0]}}}"#;
+    let files: [(&str, &[u8]); 2] = [("one.vrm", &avatar(Vrm::One)), ("nod.json", nod)];
+    let mut shop = Shop::of(&files, "--backend cpu");
+    let cast = shop.cast();
+    assert!(cast.bones.contains(&"leftUpperArm".to_owned()));
+    let mut pose = Pose {
+        bones: Some(shop.path("nod.json").to_string_lossy().into_owned()),
+        ..Pose::default()
+    };
+    let nodding = shop.checked(("ink", &[]), &pose, None);
+    let arm = [12.3, -7.0, 61.7];
+    pose.set_turn("leftUpperArm", Some(arm));
+    let turned = Order {
+        pose: pose.clone(),
+        size: [64, 48],
+        ..order(&[], None)
+    };
+    let picture = shop.picture(&turned);
+    let png = encoder::png(turned.size, &picture.rgba, false).expect("a file");
+    assert!(png != nodding);
+
+    // The file that is saved has all of it, and draws the same in the window and by the command.
+    let saved = shop.desk.save_pose(&pose).expect("a file");
+    assert!(saved.ends_with("one.pose.json"), "{saved}");
+    let in_file = Pose {
+        bones: Some(saved.clone()),
+        ..Pose::default()
+    };
+    assert!(shop.checked(("ink", &[]), &in_file, None) == png);
+    let bytes = std::fs::read(&saved).expect("a file");
+    let (posture, faults) = Posture::read(&bytes, &Limits::default()).expect("a pose");
+    assert_eq!((posture.hips, faults), (Some([0.1, 0.0, 0.0]), vec![]));
+    assert_eq!(posture.turns.len(), 2);
+    let again = shop.desk.save_pose(&pose).expect("a file");
+    assert!(again.ends_with("one-1.pose.json"), "{again}");
 }
