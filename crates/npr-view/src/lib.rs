@@ -17,6 +17,7 @@
 //! # Ok::<(), npr_stylesheet::StyleError>(())
 //! ```
 
+mod beside;
 mod film;
 mod history;
 mod host;

@@ -15,6 +15,7 @@ use egui::{Align, Key, KeyboardShortcut, Layout, Modifiers, RichText, TextureHan
 use npr_core::standard_view::StandardView;
 use npr_stylesheet::StyleError;
 
+use crate::beside::{Gallery, Split};
 use crate::film::Filming;
 use crate::history::History;
 use crate::host::{Host, News, Order, Picture, Take};
@@ -24,9 +25,6 @@ use crate::pose::Pose;
 use crate::sheet::Sheet;
 use crate::viewpoint::Viewpoint;
 use crate::why::Asked;
-use gallery::Gallery;
-use joints::SavedPose;
-use split::Split;
 use timeline::Timeline;
 
 /// Seconds without a change after which the picture is drawn in full.
@@ -63,7 +61,8 @@ pub struct Studio {
     split: Split,
     /// Pictures of the presets.
     gallery: Gallery,
-    saved_pose: SavedPose,
+    /// The bones of a pose that were saved last, and their file.
+    saved_pose: Option<(Pose, String)>,
     /// Width and height that a full picture has now, in pixels.
     size: [u32; 2],
     shown: Option<(Picture, TextureHandle)>,
@@ -100,7 +99,7 @@ impl Studio {
             ordered: None,
             aside: None,
             gallery: Gallery::default(),
-            saved_pose: SavedPose::default(),
+            saved_pose: None,
             size: size.unwrap_or([1, 1]),
             shown: None,
             told: None,

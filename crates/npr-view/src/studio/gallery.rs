@@ -14,29 +14,6 @@ const SIDE: f32 = 160.0;
 /// Room of a picture in the list, in points.
 const ROOM: Vec2 = vec2(104.0, 78.0);
 
-/// Pictures of the scene in every preset, drawn while their list is open.
-#[derive(Default)]
-pub(super) struct Gallery {
-    /// Whether the list is open.
-    is_open: bool,
-    /// The view that they show, as the order of a picture without a style.
-    view: Option<Order>,
-    /// Pictures by the name of their preset; none for one that could not be drawn.
-    pictures: Vec<(String, Option<TextureHandle>)>,
-}
-
-impl Gallery {
-    /// Forgets all pictures: another scene is shown.
-    pub fn forget(&mut self) {
-        self.pictures.clear();
-    }
-
-    fn picture(&self, name: &str) -> Option<&Option<TextureHandle>> {
-        let mut all = self.pictures.iter();
-        all.find_map(|(other, picture)| (other == name).then_some(picture))
-    }
-}
-
 /// An order without what it says of the style.
 fn without_style(order: Order) -> Order {
     Order {

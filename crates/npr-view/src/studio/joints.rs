@@ -16,10 +16,6 @@ const WORDS: &str = "figure joint bone pose turn";
 /// The angles in the order of [`Pose::turns`].
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// A pose that was saved, and its file.
-#[derive(Debug, Default)]
-pub(super) struct SavedPose(Option<(Pose, String)>);
-
 /// What of a pose lies in a file of bones.
 fn of_bones(pose: &Pose) -> Pose {
     Pose {
@@ -88,7 +84,7 @@ impl Studio {
         match self.host.save_pose(&bones) {
             Ok(path) => {
                 self.told = Some((format!("'{path}' holds the pose"), false));
-                self.saved_pose = SavedPose(Some((bones, path.clone())));
+                self.saved_pose = Some((bones, path.clone()));
                 Some(path)
             }
             Err(text) => {
@@ -104,7 +100,7 @@ impl Studio {
         if order.pose.turns.is_empty() {
             return Some(order);
         }
-        let saved = self.saved_pose.0.as_ref();
+        let saved = self.saved_pose.as_ref();
         let saved = saved.filter(|(pose, _)| *pose == of_bones(&order.pose));
         let path = match saved {
             Some((_, path)) => path.clone(),

@@ -8,42 +8,12 @@ use super::Studio;
 use super::canvas::fitted;
 use crate::host::Order;
 use crate::panel::{arrows, name_it};
-use crate::sheet::Sheet;
 
 /// Width of the handle between both pictures, in points.
 const HANDLE: f32 = 12.0;
 
 /// What an arrow key moves the handle by, as a share of the picture.
 const STEP: f32 = 0.01;
-
-/// A picture of the style that the studio began with, left of a handle.
-pub(super) struct Split {
-    /// Whether it is shown.
-    pub is_on: bool,
-    /// The style that the studio began with.
-    first: Sheet,
-    /// Where the handle is, as a share of the picture's width from the left.
-    share: f32,
-    /// The picture of the style at first, with its order.
-    shown: Option<(Order, TextureHandle)>,
-}
-
-impl Split {
-    /// A split that is not shown, with the style at first.
-    pub fn new(first: Sheet) -> Self {
-        Self {
-            is_on: false,
-            first,
-            share: 0.5,
-            shown: None,
-        }
-    }
-
-    /// Forgets the picture: its scene or its style has changed where they lie.
-    pub fn forget(&mut self) {
-        self.shown = None;
-    }
-}
 
 impl Studio {
     /// The order of the present view in the style at first.
@@ -95,7 +65,7 @@ impl Studio {
         is_first
     }
 
-    /// Where the handle is, and the picture left of it, while that shows the same view as the present picture in `room`.
+    /// Where the handle is in a room, and the picture left of it with its place, while both pictures show one view.
     pub(super) fn first_in(&self, room: Rect) -> Option<(f32, Rect, TextureHandle)> {
         let (order, texture) = self.split.shown.as_ref().filter(|_| self.split.is_on)?;
         let now = &self.shown.as_ref()?.0.order;
