@@ -90,7 +90,7 @@ impl HeldStrokes {
     /// `shape` is the surface in the pose of this frame, whatever pose it had before: its vertices, edges and faces
     /// keep their numbers. A stroke runs the way that most of its samples ran, and has the identity that most of them
     /// had, unless another has more of it; what is new keeps its own, made of mesh edges. `u` is shifted as a whole
-    /// where all samples agree, else by parts of 16 pixels and more. Strokes keep their order, and new ones come behind
+    /// where all samples agree, else by parts of 8 pixels and more. Strokes keep their order, and new ones come behind
     /// those that they came behind. After a cut nothing is taken over: where the camera turns by more than 30 degrees,
     /// or fewer than a fifth of the samples find one of the frame before.
     ///

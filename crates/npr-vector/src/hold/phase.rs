@@ -6,15 +6,16 @@ use crate::mesh_lines::run::distance;
 use crate::stroke::{Stroke, StrokePoint};
 use std::cmp::Reverse;
 
-/// Shortest part with a texture of its own, in samples: 16 pixels.
-const LEAST_SAMPLES: usize = 8;
+/// Shortest part with a texture of its own, in samples: 8 pixels.
+const LEAST_SAMPLES: usize = 4;
 
 /// Samples without a vote, or with another one, over which a row of votes goes on.
 const GAP_SAMPLES: usize = 8;
 
 /// Most by which shifts differ from a sample to the next in one row, in pixels, beside what is noise: surfaces turn
-/// away, and lines on them get longer. Where one texture changes over to another they differ by more.
-const STRETCH_PX: f64 = 0.4;
+/// away, and lines on them get longer, of figures that run by more than half in a frame. Where one texture changes over
+/// to another they may differ by more.
+const STRETCH_PX: f64 = 1.6;
 
 /// Noise of shifts, in pixels.
 const NOISE_PX: f64 = 0.4;
@@ -29,8 +30,8 @@ const APPROACH_PX: f64 = 0.5;
 /// parted.
 const SPREAD_PX: f64 = 6.0;
 
-/// Way over which one texture changes over to another that is shifted by at most as much, in pixels. Others meet in a
-/// seam: squeezed into so little, they would be a streak.
+/// Way over which one texture changes over to another that is shifted by at most as much, in pixels; of a part that is
+/// shorter, its length. Others meet in a seam: squeezed into so little, they would be a streak.
 const BLEND_PX: f64 = 12.0;
 
 /// Length of a seam, in pixels.
@@ -248,9 +249,9 @@ fn apply(stroke: &mut Stroke, parts: &[Part]) {
     let mut knots: Vec<(f64, &Part)> = Vec::new();
     for pair in parts.windows(2) {
         let middle = (pair[0].to + pair[1].from) as f64 * 0.5 * STEP_PX;
-        let is_near = pair[0].is_along == pair[1].is_along
-            && (pair[0].shift - pair[1].shift).abs() <= BLEND_PX;
         let shorter = pair[0].len().min(pair[1].len()) as f64 * STEP_PX;
+        let is_near = pair[0].is_along == pair[1].is_along
+            && (pair[0].shift - pair[1].shift).abs() <= BLEND_PX.min(shorter);
         let half = 0.5 * shorter.min(if is_near { BLEND_PX } else { SEAM_PX });
         knots.extend([(middle - half, &pair[0]), (middle + half, &pair[1])]);
     }

@@ -17,6 +17,14 @@ fn sheet(right: f32) -> HalfEdgeMesh {
     shape_of(&mesh.expect("a triangle"))
 }
 
+/// The same sheet, wider by a factor, with its middle where it was.
+fn stretched(factor: f32) -> HalfEdgeMesh {
+    let corners = [[-2e3, -2e3, 0.0], [4e3, -2e3, 0.0], [-2e3, 4e3, 0.0]];
+    let wide = corners.map(|[x, y, z]: [f32; 3]| [x * factor, y, z]);
+    let mesh = Mesh::new(wide.to_vec(), vec![[0, 1, 2]]);
+    shape_of(&mesh.expect("a triangle"))
+}
+
 /// The view of a camera that stands to the left by some pixels, so that the sheet shows to the right.
 fn view(right: f32) -> Projector {
     let at = |z: f32| [-right, 0.0, z];
@@ -377,6 +385,50 @@ proptest! {
             let u = u_at(&strokes[0], 100.0 + long / 2.0 + f64::from(right));
             prop_assert!((u - long / 2.0).abs() < 0.3, "frame {frame}: {u}");
         }
+    }
+
+    /// Where the surface stretches or shrinks within a frame, no texture jumps: at most by 8 pixels, as far as lies
+    /// between the ends of a part and its middle.
+    #[test]
+    fn textures_stay_on_surfaces_that_stretch(
+        from in -200.0..0.0_f64, long in 60.0..300.0_f64, factor in 0.7..2.0_f64,
+    ) {
+        let shown = |factor: f64| {
+            let ends = [from, from + long].map(|x| [320.0 + x * factor, 50.0]);
+            stroke(1, &ends, false, 0.0)
+        };
+        let mut state = HeldStrokes::default();
+        state.hold(&mut vec![shown(1.0)], &sheet(0.0), &view(0.0));
+        let mut strokes = vec![shown(factor)];
+        state.hold(&mut strokes, &stretched(factor as f32), &view(0.0));
+        for at in 0..=20 {
+            let x = long * f64::from(at) / 20.0;
+            let place = (320.0 + (from + x) * factor).clamp(
+                320.0 + from * factor + 1e-6,
+                320.0 + (from + long) * factor - 1e-6,
+            );
+            let u = u_at(&strokes[0], place);
+            prop_assert!((u - x).abs() <= 8.0, "{x} px of {long}: {u}");
+        }
+    }
+
+    /// A line of 9 pixels and more that is joined to another, at whichever end, keeps its texture.
+    #[test]
+    fn short_lines_that_are_joined_keep_their_texture(short in 9.0..30.0_f64, long in 60.0..300.0_f64, before: bool) {
+        let (a, b) = match before {
+            true => (short, long),
+            false => (long, short),
+        };
+        let middle = 100.0 + a;
+        let parted = vec![line(1, 100.0, middle, 50.0), line(2, middle + 1.0, middle + 1.0 + b, 50.0)];
+        let frames = held([parted, vec![line(3, 100.0, middle + 1.0 + b, 50.0)]]);
+        let (x, want) = match before {
+            true => (102.0, 2.0),
+            false => (middle + b - 1.0, b - 2.0),
+        };
+        let u = u_at(&frames[1][0], x);
+        // It comes nearer by half a pixel.
+        prop_assert!((u - want).abs() <= 0.6, "{u} for {want}");
     }
 
     /// Of what nothing happens to nothing changes, to the bit, whatever was joined and parted before.
