@@ -73,11 +73,7 @@ fn evened_tone(part: u32, frame_px: vec2<f32>) -> Evened {
     let passed = f32(steps) / f32(STEP_PARTS);
     var bare = 0.0;
     if end < NO_STEP {
-        var in_ink = 0.0;
-        for (var i = 1u; i < TONES; i++) {
-            if parts[part].ramp[i].a <= end { in_ink += 1.0; }
-        }
-        bare = clamp(passed - in_ink, 0.0, 1.0);
+        bare = clamp(passed - f32(ramp_steps(part, end)), 0.0, 1.0);
         tone.ink = 1.0 - bare;
     }
 

@@ -45,11 +45,7 @@ fn steps_at(id: u32, constants: TriangleConstants, sample: u32, px: vec2<f32>) -
     let open = open_at(openness(corners, at), vec2<f32>(0.0));
     let lit = coordinate_under(world_of(corners, weights), normal_of(corners, weights), dark, open);
     let part = constants.part;
-    var passed = select(0u, 1u, ink_step(part) <= lit.x);
-    for (var i = 1u; i < TONES; i++) {
-        if parts[part].ramp[i].a <= lit.x { passed += 1u; }
-    }
-    return min(passed, TONES - 1u);
+    return min(ramp_steps(part, lit.x) + select(0u, 1u, ink_step(part) <= lit.x), TONES - 1u);
 }
 
 // Word of the tone map of a pixel; 0 where nothing is to be evened.

@@ -14,7 +14,7 @@
 //!    samples show it as they do without all this. Where one is changed, the blended edge is shown.
 
 use crate::compose::Layers;
-use crate::ink_step::{Evened, ink_step};
+use crate::ink_step::{Evened, ink_step, ramp_steps};
 use crate::ramp::Level;
 use crate::tone::surface_at;
 use crate::triangle_constants::TriangleConstants;
@@ -93,14 +93,7 @@ pub fn has_steps(part: &Part) -> bool {
 
 /// Steps that the light passes at coordinate `x`: those of the ramp, and the end of the ink.
 fn steps_passed(part: &Part, x: f32) -> u32 {
-    let passed = part.ramp[1..].iter().filter(|stop| stop[3] <= x).count() as u32;
-    (passed + u32::from(ink_step(part) <= x)).min(TONES - 1)
-}
-
-/// Steps of the ramp before the ink ends.
-fn steps_in_ink(part: &Part) -> u32 {
-    let end = ink_step(part);
-    part.ramp[1..].iter().filter(|stop| stop[3] <= end).count() as u32
+    (ramp_steps(part, x) + u32::from(ink_step(part) <= x)).min(TONES - 1)
 }
 
 /// Tiles of each side of a picture.
@@ -365,7 +358,7 @@ impl Layers<'_> {
         let end = ink_step(part);
         let passed = steps as f32 / STEP_PARTS as f32;
         let bare = match end < Level::UNUSED {
-            true => (passed - steps_in_ink(part) as f32).clamp(0.0, 1.0),
+            true => (passed - ramp_steps(part, end) as f32).clamp(0.0, 1.0),
             false => 0.0,
         };
         let ink = (end < Level::UNUSED).then_some(1.0 - bare);

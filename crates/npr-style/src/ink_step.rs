@@ -1,4 +1,4 @@
-//! Where ink ends at once, and tones that were evened with its end as a step.
+//! Steps between tones: where ink ends at once, those of the ramp, and tones that were evened with both.
 
 use crate::ramp::Level;
 use npr_core::geometry::Part;
@@ -15,6 +15,11 @@ pub(crate) fn ink_step(part: &Part) -> f32 {
         return Level::UNUSED;
     }
     part.light_at.min(part.dark_at) + level * (part.light_at - part.dark_at).max(0.0)
+}
+
+/// Steps of a part's ramp that light passes at coordinate `x`.
+pub(crate) fn ramp_steps(part: &Part, x: f32) -> u32 {
+    part.ramp[1..].iter().filter(|stop| stop[3] <= x).count() as u32
 }
 
 /// An evened tone.

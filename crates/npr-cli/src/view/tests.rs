@@ -434,14 +434,16 @@ fn what_was_found_for_one_style_is_drawn_in_the_next_as_the_command_draws_it() {
     }
 }
 
+/// Share of a picture that is dark.
+fn ink_of(picture: &Picture) -> f64 {
+    let pixels = picture.rgba.chunks_exact(4);
+    let dark = pixels.filter(|pixel| pixel[1] < 100).count();
+    dark as f64 / f64::from(picture.order.size[0] * picture.order.size[1])
+}
+
 #[test]
 fn a_draft_has_the_strokes_of_the_full_picture_before() {
     let mut shop = Shop::new("--backend cpu");
-    let ink_of = |picture: &Picture| {
-        let pixels = picture.rgba.chunks_exact(4);
-        let dark = pixels.filter(|pixel| pixel[1] < 100).count();
-        dark as f64 / f64::from(picture.order.size[0] * picture.order.size[1])
-    };
     let full = Order {
         style: "toon".to_owned(),
         ..order(&["line.width.base=6px"], Some(aside(false)))

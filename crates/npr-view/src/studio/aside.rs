@@ -29,9 +29,8 @@ impl Studio {
         let free = self.aside.take().filter(|_| !is_last);
         match drawn {
             Ok(picture) => {
-                let texture = || canvas::texture(ui.ctx(), &picture);
-                if !self.take_first(order, texture) {
-                    let texture = canvas::texture(ui.ctx(), &picture);
+                let texture = canvas::texture(ui.ctx(), &picture);
+                if !self.take_first(order, &texture) {
                     self.take_preset(order, Some(texture));
                 }
                 self.aside = free;

@@ -53,14 +53,10 @@ impl Studio {
     }
 
     /// Takes a picture that was drawn beside the present one, if it is that of the style at first; gives whether it is.
-    pub(super) fn take_first(
-        &mut self,
-        order: &Order,
-        texture: impl FnOnce() -> TextureHandle,
-    ) -> bool {
+    pub(super) fn take_first(&mut self, order: &Order, texture: &TextureHandle) -> bool {
         let is_first = self.split.is_on && *order == self.first_order();
         if is_first {
-            self.split.shown = Some((order.clone(), texture()));
+            self.split.shown = Some((order.clone(), texture.clone()));
         }
         is_first
     }

@@ -61,7 +61,7 @@ fn a_picture_that_is_asked_for_later_takes_the_place_of_one_beside_it() {
         size: [1600, 1200],
         ..order(&[], Some(aside(true)))
     };
-    shop.desk.draw(slow.clone());
+    shop.desk.draw(slow);
     thread::sleep(Duration::from_millis(20));
     shop.desk.draw_aside(order(&["line.opacity=0.5"], None));
     for draft in drafts {
@@ -77,11 +77,6 @@ fn a_picture_that_is_asked_for_later_takes_the_place_of_one_beside_it() {
 #[test]
 fn a_small_picture_of_a_preset_has_the_strokes_of_the_large_one() {
     let mut shop = Shop::new("--backend cpu");
-    let ink_of = |picture: &Picture| {
-        let pixels = picture.rgba.chunks_exact(4);
-        let dark = pixels.filter(|pixel| pixel[1] < 100).count();
-        dark as f64 / f64::from(picture.order.size[0] * picture.order.size[1])
-    };
     let now = Order {
         size: [480, 360],
         ..order(&[], Some(aside(false)))
