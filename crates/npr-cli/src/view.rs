@@ -1,6 +1,7 @@
 //! `npr view`: a studio whose pictures are drawn as `npr render` draws them.
 
 mod actor;
+mod asks;
 mod order;
 mod painter;
 mod playbill;
@@ -11,13 +12,12 @@ use crate::arguments::{Said, ViewArguments};
 use crate::fault::{Exit, Fault};
 use crate::message::quoted;
 use crate::style_source::StyleSource;
+use asks::{Ask, Ends};
 use npr_stylesheet::{DEFAULT_PRESET, Stated};
 use npr_view::{Film, Host, News, Order, Pose, Question, Sheet, Studio, Take, shell_line};
 use order::{pose_of, render_arguments};
-use painter::{Ask, Painter};
+use painter::Painter;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 use std::thread::{self, JoinHandle};
 
@@ -55,8 +55,7 @@ pub struct Desk {
     has_ended: bool,
     /// Where files go that are taken away.
     folder: PathBuf,
-    /// Whether the film that is drawn is to end.
-    cancel: Arc<AtomicBool>,
+    ends: Ends,
     /// Whether a film is drawn.
     is_filming: bool,
     painter: Option<JoinHandle<()>>,
@@ -104,8 +103,8 @@ impl Desk {
     ) -> Result<Self, Fault> {
         let (asks, of_desk) = channel();
         let (to_desk, news) = channel();
-        let cancel = Arc::new(AtomicBool::new(false));
-        let taken = (folder.to_owned(), cancel.clone());
+        let ends = Ends::default();
+        let taken = (folder.to_owned(), ends.clone());
         let painter = Painter::new(said.args.clone(), of_desk, to_desk, wake, taken);
         let painter = thread::Builder::new()
             .name("painter".to_owned())
@@ -119,7 +118,7 @@ impl Desk {
             own: Vec::new(),
             has_ended: false,
             folder: folder.to_owned(),
-            cancel,
+            ends,
             is_filming: false,
             painter: Some(painter),
         })
@@ -177,6 +176,7 @@ impl Host for Desk {
 
     fn draw(&mut self, order: Order) {
         self.ask(Ask::Draw(order, self.opened));
+        self.ends.picture.raise();
     }
 
     fn draw_aside(&mut self, order: Order) {
@@ -241,13 +241,13 @@ impl Host for Desk {
     }
 
     fn film(&mut self, film: &Film, order: &Order) {
-        self.cancel.store(false, Ordering::Relaxed);
+        self.ends.film.lower();
         self.is_filming = true;
         self.ask(Ask::Film(*film, order.clone()));
     }
 
     fn cancel(&mut self) {
-        self.cancel.store(true, Ordering::Relaxed);
+        self.ends.film.raise();
     }
 }
 

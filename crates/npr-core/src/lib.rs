@@ -5,7 +5,8 @@
 //! [`window`]), the surface point under a pixel ([`surface`]), packed textures ([`texture`]), and a triangle rasteriser
 //! with a stated fill rule ([`raster`]); spheres of smoke ([`smoke`]); the kinds of line ([`line_kind`]), how they are
 //! found ([`line_source`]) and the flags of mesh edges ([`edge_flags`]); constants that styles and lines share
-//! ([`published_path`]); the door to decoders of others ([`decoding`]). Nothing here knows about files, styles or
+//! ([`published_path`]); the door to decoders of others ([`decoding`]); a flag
+//! that ends work ([`interrupt`]). Nothing here knows about files, styles or
 //! graphics devices.
 //!
 //! ```
@@ -24,6 +25,7 @@ pub mod decoding;
 pub mod edge_flags;
 pub mod geometry;
 pub mod grain;
+pub mod interrupt;
 pub mod layout;
 pub mod light_view;
 pub mod line_color;

@@ -3,6 +3,7 @@
 use crate::flight;
 use crate::graph::{Graph, ResourceId};
 use bytemuck::AnyBitPattern;
+use npr_core::interrupt::{Interrupt, Interrupted};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::Duration;
@@ -41,6 +42,9 @@ pub enum EngineError {
         /// What the driver said.
         reason: String,
     },
+    /// Somebody ended the work before it was done.
+    #[error(transparent)]
+    Interrupted(#[from] Interrupted),
 }
 
 /// How long one pass took.
@@ -103,6 +107,12 @@ pub trait Session {
     /// Where the resource is no buffer.
     fn grow(&mut self, id: ResourceId, count: usize) -> Result<(), EngineError>;
 
+    /// Asks a flag between two passes of every run from now on, where the engine can end a run that has begun: the
+    /// processor can, a device works on.
+    fn heed(&mut self, interrupt: &Interrupt) {
+        let _ = interrupt;
+    }
+
     /// Starts a run of every node, in order, and of the reading of resources, each named once, after those that were
     /// started before. [`Session::collect`] gives what comes of it.
     ///
@@ -112,7 +122,8 @@ pub trait Session {
     ///
     /// # Errors
     ///
-    /// [`EngineError`] where the device fails or is lost; no run is started then.
+    /// [`EngineError`] where the device fails or is lost, or the run is [interrupted](Self::heed); no run is started
+    /// then, and what resources hold may not be read.
     ///
     /// # Panics
     ///
@@ -204,6 +215,10 @@ impl Session for Box<dyn Session> {
 
     fn grow(&mut self, id: ResourceId, count: usize) -> Result<(), EngineError> {
         self.as_mut().grow(id, count)
+    }
+
+    fn heed(&mut self, interrupt: &Interrupt) {
+        self.as_mut().heed(interrupt);
     }
 
     fn submit(&mut self, ids: &[ResourceId]) -> Result<(), EngineError> {

@@ -5,6 +5,7 @@ use crate::flight::{self, Flight};
 use crate::graph::Kind;
 use crate::graph::{Graph, Node, ResourceId, WorkSize, emptied, writes};
 use crate::pass::{Bindings, Bound, Work};
+use npr_core::interrupt::Interrupt;
 use npr_vector::rank::work::Arguments;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -39,6 +40,7 @@ impl Engine for Processor {
             graph,
             memory,
             done: Flight::new(),
+            interrupt: Interrupt::default(),
         }))
     }
 }
@@ -51,6 +53,8 @@ struct ProcessorSession {
     memory: Vec<Memory>,
     /// What runs left that are not collected, the first one first: later runs overwrite the memory.
     done: Flight<(Vec<PassTime>, Readings)>,
+    /// Asked before each pass.
+    interrupt: Interrupt,
 }
 
 impl ProcessorSession {
@@ -83,11 +87,17 @@ impl Session for ProcessorSession {
         Ok(())
     }
 
+    fn heed(&mut self, interrupt: &Interrupt) {
+        self.interrupt = interrupt.clone();
+    }
+
     fn submit(&mut self, ids: &[ResourceId]) -> Result<(), EngineError> {
         self.done.check_room();
-        let nodes = self.graph.nodes().iter();
-        let times = nodes.map(|node| run_node(&self.graph, node, &mut self.memory));
-        let times = times.collect();
+        let mut times = Vec::with_capacity(self.graph.nodes().len());
+        for node in self.graph.nodes() {
+            self.interrupt.check()?;
+            times.push(run_node(&self.graph, node, &mut self.memory));
+        }
         self.done.push((times, self.readings(ids)));
         Ok(())
     }

@@ -1,6 +1,7 @@
 //! Why a picture could not be made.
 
 use npr_core::budget::OverBudget;
+use npr_core::interrupt::Interrupted;
 use npr_gpu::curves::CurvesError;
 use npr_gpu::engine::EngineError;
 
@@ -126,6 +127,21 @@ pub enum RenderError {
     /// The engine failed.
     #[error(transparent)]
     Engine(#[from] EngineError),
+}
+
+impl RenderError {
+    /// Whether somebody ended the work before it was done ([`RendererOptions::interrupt`]).
+    ///
+    /// [`RendererOptions::interrupt`]: crate::RendererOptions::interrupt
+    pub fn is_interrupted(&self) -> bool {
+        matches!(self, Self::Engine(EngineError::Interrupted(_)))
+    }
+}
+
+impl From<Interrupted> for RenderError {
+    fn from(interrupted: Interrupted) -> Self {
+        Self::Engine(interrupted.into())
+    }
 }
 
 impl From<CurvesError> for RenderError {

@@ -421,7 +421,8 @@ impl FramePlan {
 
     /// Prepares the passes on an engine, and uploads what does not change with the camera.
     pub fn prepare(self, model: &Model, engine: &dyn Engine) -> Result<FrameRenderer, RenderError> {
-        let session = engine.prepare(self.graph().clone())?;
+        let mut session = engine.prepare(self.graph().clone())?;
+        session.heed(&self.options.interrupt);
         FrameRenderer::new(self, model, session)
     }
 
@@ -735,6 +736,7 @@ impl<S: Session> FrameRenderer<S> {
             if let Some(compositing) = &passes.compositing {
                 read.extend(compositing.reads(aimed.submitted == 0));
             }
+            self.plan.options.interrupt.check()?;
             self.session.submit(&read)?;
             aimed.submitted += 1;
         }

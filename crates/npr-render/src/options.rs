@@ -4,6 +4,7 @@ use crate::error::RenderError;
 use crate::smoke::Smoke;
 use crate::stage::SurfaceStage;
 use crate::tiles::TILE_PIXELS;
+use npr_core::interrupt::Interrupt;
 use npr_drawing::lettering::Font;
 use npr_scene::Image;
 use std::collections::BTreeMap;
@@ -74,6 +75,10 @@ pub struct RendererOptions {
     pub stages: bool,
     /// How far surfaces are drawn: all the way by default, else to a stage that somebody wants to see.
     pub surfaces: SurfaceStage,
+    /// Ends a frame that is being drawn, where somebody else raises it: it is asked between the steps of finding
+    /// strokes, between tiles and, on the processor, between passes. The frame then fails with
+    /// [`RenderError::is_interrupted`]; the next is drawn as if it were the first. A device ends what it has begun.
+    pub interrupt: Interrupt,
 }
 
 impl RendererOptions {
@@ -118,6 +123,7 @@ impl RendererOptions {
             layers: false,
             stages: false,
             surfaces: SurfaceStage::default(),
+            interrupt: Interrupt::default(),
         }
     }
 }

@@ -436,6 +436,16 @@ impl<'a> Renderer<'a> {
             "the frame needs all of its pixels at once"
         );
         self.forget_begun();
+        let drawn = self.draw_rows(camera, take);
+        self.or_anew(drawn)
+    }
+
+    /// The work of [`Self::draw_bands`].
+    fn draw_rows(
+        &mut self,
+        camera: &Camera,
+        take: &mut dyn FnMut(&Frame) -> bool,
+    ) -> Result<Frame, RenderError> {
         let (found, strokes) = self.find_strokes(camera)?;
         let mut aimed = self.frames.begin(&self.model, camera, &found)?;
         let [width, height] = self.frames.plan.options.size;
@@ -464,7 +474,8 @@ impl<'a> Renderer<'a> {
     ///
     /// # Errors
     ///
-    /// [`RenderError::Engine`] where the device fails; nothing half drawn is returned.
+    /// [`RenderError::Engine`] where the device fails or the frame is [interrupted](RendererOptions::interrupt); nothing
+    /// half drawn is returned, and the next frame is drawn as if it were the first.
     pub fn draw(&mut self, camera: &Camera) -> Result<Frame, RenderError> {
         self.forget_begun();
         let begun = self.begin(camera)?;
@@ -487,8 +498,30 @@ impl<'a> Renderer<'a> {
         }
     }
 
+    /// Lets the next frame go on from none where one has failed: half a frame is none to go on from.
+    fn or_anew<T>(&mut self, drawn: Result<T, RenderError>) -> Result<T, RenderError> {
+        if drawn.is_err() {
+            self.forget_before();
+        }
+        drawn
+    }
+
+    /// Draws the next frame as if it were the first.
+    fn forget_before(&mut self) {
+        self.frames.before = None;
+        if let Some((other, _)) = &mut self.blended {
+            other.forget_before();
+        }
+    }
+
     /// Starts to draw the model, and the other look of a blend, as a camera sees it.
     pub(crate) fn begin(&mut self, camera: &Camera) -> Result<Begun, RenderError> {
+        let begun = self.start(camera);
+        self.or_anew(begun)
+    }
+
+    /// The work of [`Self::begin`].
+    fn start(&mut self, camera: &Camera) -> Result<Begun, RenderError> {
         let (found, strokes) = self.find_strokes(camera)?;
         let aimed = self.frames.begin(&self.model, camera, &found)?;
         let other = match &mut self.blended {
@@ -514,7 +547,13 @@ impl<'a> Renderer<'a> {
     }
 
     /// Takes the frame that was begun first of those that are not finished, and draws what goes over it as a whole.
-    pub(crate) fn finish(&mut self, mut begun: Begun) -> Result<Frame, RenderError> {
+    pub(crate) fn finish(&mut self, begun: Begun) -> Result<Frame, RenderError> {
+        let drawn = self.take(begun);
+        self.or_anew(drawn)
+    }
+
+    /// The work of [`Self::finish`].
+    fn take(&mut self, mut begun: Begun) -> Result<Frame, RenderError> {
         // Take the tiles.
         let RendererOptions {
             size,

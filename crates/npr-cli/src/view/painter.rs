@@ -1,6 +1,7 @@
 //! The thread that draws what a studio shows.
 
 use super::actor::{Actor, Handed};
+use super::asks::{Ask, Asks, Ends};
 use super::order::order_arguments;
 use super::playbill;
 use super::save;
@@ -19,6 +20,7 @@ use crate::source::{Loaded, Source};
 use crate::target::Target;
 use crate::viewpoint::{self, Seen, Viewed};
 use npr_core::camera::{Camera, Projection};
+use npr_core::interrupt::Interrupt;
 use npr_gpu::engine::Engine;
 use npr_gpu::processor::Processor;
 use npr_render::{Frame, Renderer, RendererOptions, Spot};
@@ -29,9 +31,7 @@ use std::cell::{Cell, RefCell};
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
+use std::sync::mpsc::{Receiver, Sender};
 use std::time::{Duration, Instant, SystemTime};
 
 /// Time between two looks at the files that a picture is made from.
@@ -43,41 +43,21 @@ const KEPT: usize = 2;
 /// Views whose strokes are kept.
 const VIEWS: usize = 4;
 
+/// What ends no picture.
+static NEVER: Interrupt = Interrupt::NEVER;
+
 /// Seconds that strokes may take to be found in drafts that follow a camera or a figure; beyond that their lines are
 /// drawn by method `shape`.
 const STROKES_S: f32 = 0.03;
 
-/// What a painter is asked for.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Ask {
-    /// Draw a picture, asked for when so many scenes were known to be opened.
-    Draw(Order, u64),
-    /// Draw a picture beside the present one, which stays as it is; any picture that is asked for later counts instead.
-    Aside(Order, u64),
-    /// Open a scene, or a motion for the figure of the present one.
-    Open(PathBuf),
-    /// Tell what is at a place of a picture.
-    PointAt(Question),
-    /// Write the picture of an order, or its lines, into a file.
-    Save(Take, Order),
-    /// Draw a film.
-    Film(Film, Order),
-    /// Nobody asks any more.
-    End,
-}
-
 /// Draws pictures one after the other, on a thread of its own.
 pub struct Painter {
     args: ViewArguments,
-    asks: Receiver<Ask>,
+    asks: Asks,
     news: Sender<News>,
     wake: Box<dyn Fn() + Send>,
     /// Where files go that are taken away.
     folder: PathBuf,
-    /// Whether the film that is drawn is to end.
-    cancel: Arc<AtomicBool>,
-    /// What was asked for and is still to be done.
-    queue: RefCell<VecDeque<Ask>>,
     /// The files that scene and style are made from, with the time of their last change.
     scene_files: RefCell<Vec<Watched>>,
     style_files: RefCell<Vec<Watched>>,
@@ -118,7 +98,7 @@ impl Painter {
         asks: Receiver<Ask>,
         news: Sender<News>,
         wake: Box<dyn Fn() + Send>,
-        (folder, cancel): (PathBuf, Arc<AtomicBool>),
+        (folder, ends): (PathBuf, Ends),
     ) -> Self {
         let first = Ask::Open(args.scene.clone());
         Self {
@@ -126,12 +106,10 @@ impl Painter {
             opened: Cell::new(0),
             motion: RefCell::new(args.drawing.pose.motion.clone()),
             args,
-            asks,
+            asks: Asks::after(first, asks, ends),
             news,
             wake,
             folder,
-            cancel,
-            queue: RefCell::new(VecDeque::from([first])),
             scene_files: RefCell::default(),
             style_files: RefCell::default(),
             read: RefCell::default(),
@@ -294,7 +272,7 @@ impl Painter {
         let this = self.clone();
         let mut progress = Progress::told_to(Rc::new(move |done, of| {
             this.tell(News::Film(Some([done, of])));
-            !this.cancel.load(Ordering::Relaxed)
+            !this.asks.ends().film.is_raised()
         }));
         let places = (self.folder.as_path(), scene.as_path());
         let saved = save::film(&self.args, places, (film, order), &mut progress);
@@ -375,14 +353,18 @@ impl Painter {
             let limits = self.args.drawing.limits.limits();
             let mut actor = Actor::new(prepared.scene.clone(), limits);
             let scene = (engine, (&prepared, &mut actor));
+            let asked = (order, &self.asks.ends().picture);
             let (mut found, camera, viewpoint) =
-                self.poised(scene, &path, order, &mut VecDeque::new())?;
-            let frame = found.renderer.draw(&camera)?;
-            Ok(picture((engine, &actor), order, viewpoint, (frame, start)))
+                self.poised(scene, &path, asked, &mut VecDeque::new())?;
+            let frame = self.drawn(&mut found.renderer, &camera)?;
+            let shown =
+                frame.map(|frame| picture((engine, &actor), order, viewpoint, (frame, start)));
+            Ok(shown.map(Box::new))
         };
-        let drawn: Result<Picture, Fault> = draw();
-        let drawn = drawn.map(Box::new).map_err(|fault| fault.message);
-        self.tell(News::Aside(Box::new(order.clone()), drawn));
+        let drawn: Result<Option<Box<Picture>>, Fault> = draw();
+        if let Some(drawn) = drawn.map_err(|fault| fault.message).transpose() {
+            self.tell(News::Aside(Box::new(order.clone()), drawn));
+        }
     }
 
     /// Tells what is on the pictures that were drawn, and draws others beside them, until something else is asked for,
@@ -417,7 +399,7 @@ impl Painter {
         question: &Question,
         kept: &mut VecDeque<Kept<'a>>,
     ) -> Result<(), Fault> {
-        let (mut found, camera, _) = self.poised(scene, path, &question.order, kept)?;
+        let (mut found, camera, _) = self.poised(scene, path, self.asked(&question.order), kept)?;
         let spot = Spot {
             place: question.place.map(f64::from),
             reach_px: f64::from(question.reach_px),
@@ -481,7 +463,7 @@ impl Painter {
     fn renderer<'a>(
         &self,
         (engine, prepared): (&'a dyn Engine, &'a Prepared),
-        (args, order): (&RenderArguments, &Order),
+        (args, (order, interrupt)): (&RenderArguments, (&Order, &Interrupt)),
         kept: &mut VecDeque<Kept<'a>>,
     ) -> Result<Kept<'a>, Fault> {
         let read = self.read.take();
@@ -491,6 +473,7 @@ impl Painter {
             let other = &other.order;
             is_alike
                 && other.size == order.size
+                && other.is_draft == order.is_draft
                 && other.style == order.style
                 && other.overrides == order.overrides
         };
@@ -511,6 +494,7 @@ impl Painter {
         let options = RendererOptions {
             smoke: prepared.smoke.clone(),
             strokes_of,
+            interrupt: interrupt.clone(),
             ..options
         };
         Ok(Kept {
@@ -529,12 +513,13 @@ impl Painter {
         &self,
         (engine, (prepared, actor)): (&'a dyn Engine, (&'a Prepared, &mut Actor)),
         path: &Path,
-        order: &Order,
+        (order, interrupt): (&Order, &Interrupt),
         kept: &mut VecDeque<Kept<'a>>,
     ) -> Result<(Kept<'a>, Camera, Viewpoint), Fault> {
         // Find the renderer, or make it.
         let args = order_arguments(&self.args, path, order);
-        let mut found = self.renderer((engine, prepared), (&args, order), kept)?;
+        let asked = (&args, (order, interrupt));
+        let mut found = self.renderer((engine, prepared), asked, kept)?;
 
         // Place the camera, and pose the scene for it.
         let (pose, style) = (&args.drawing.pose, &found.style);
@@ -559,7 +544,30 @@ impl Painter {
         Ok((found, camera, viewpoint))
     }
 
-    /// Draws one picture, with a renderer that is kept for the next.
+    /// An order, with what ends its picture.
+    fn asked<'o>(&'o self, order: &'o Order) -> (&'o Order, &'o Interrupt) {
+        match order.is_draft {
+            true => (order, &NEVER),
+            false => (order, &self.asks.ends().picture),
+        }
+    }
+
+    /// Draws a frame to its end, or none where something else waits to be drawn.
+    fn drawn(&self, renderer: &mut Renderer<'_>, camera: &Camera) -> Result<Option<Frame>, Fault> {
+        loop {
+            match renderer.draw(camera) {
+                Ok(frame) => return Ok(Some(frame)),
+                Err(error) if error.is_interrupted() && self.asks.have_picture() => {
+                    return Ok(None);
+                }
+                // The flag was raised for the frame itself, after it was taken.
+                Err(error) if error.is_interrupted() => {}
+                Err(error) => return Err(error.into()),
+            }
+        }
+    }
+
+    /// Draws one picture, with a renderer that is kept for the next, unless something else waits to be drawn.
     fn draw_one<'a>(
         &self,
         (engine, (prepared, actor)): (&'a dyn Engine, (&'a Prepared, &mut Actor)),
@@ -569,9 +577,12 @@ impl Painter {
     ) -> Result<(), Fault> {
         let start = Instant::now();
         let scene = (engine, (prepared, &mut *actor));
-        let (mut found, camera, viewpoint) = self.poised(scene, path, order, kept)?;
+        let (mut found, camera, viewpoint) = self.poised(scene, path, self.asked(order), kept)?;
         let drawn = Instant::now();
-        let frame = found.renderer.draw(&camera)?;
+        let Some(frame) = self.drawn(&mut found.renderer, &camera)? else {
+            keep(kept, found);
+            return Ok(());
+        };
         if !order.is_draft {
             let passes: Duration = frame.times.iter().map(|pass| pass.time).sum();
             let strokes = drawn.elapsed().saturating_sub(passes);
@@ -586,31 +597,18 @@ impl Painter {
         Ok(())
     }
 
-    /// Waits for what is asked for next. Of pictures that were asked for one after the other, only the last counts.
+    /// Waits for what is asked for next, and looks at the files now and then.
     fn next(&self) -> Ask {
         loop {
-            // Take what came meanwhile.
-            let mut queue = self.queue.borrow_mut();
-            while let Ok(ask) = self.asks.try_recv() {
-                push(&mut queue, ask);
-            }
-            if let Some(ask) = queue.pop_front() {
+            if let Some(ask) = self.asks.next(LOOK) {
                 return ask;
             }
-
-            // Wait, and look at the files now and then.
-            match self.asks.recv_timeout(LOOK) {
-                Ok(ask) => push(&mut queue, ask),
-                Err(RecvTimeoutError::Disconnected) => return Ask::End,
-                Err(RecvTimeoutError::Timeout) => {
-                    if have_changed(&self.scene_files) {
-                        return Ask::Open(self.scene.borrow().clone());
-                    }
-                    if have_changed(&self.style_files) {
-                        self.is_stale.set(true);
-                        self.tell(News::StyleChanged);
-                    }
-                }
+            if have_changed(&self.scene_files) {
+                return Ask::Open(self.scene.borrow().clone());
+            }
+            if have_changed(&self.style_files) {
+                self.is_stale.set(true);
+                self.tell(News::StyleChanged);
             }
         }
     }
@@ -638,17 +636,6 @@ fn picture(
         notices: frame.notices,
         order: order.clone(),
     }
-}
-
-/// Adds what is asked for; a picture takes the place of one that waits at the end, and of one beside it.
-fn push(queue: &mut VecDeque<Ask>, ask: Ask) {
-    if matches!(ask, Ask::Draw(..) | Ask::Aside(..)) {
-        queue.retain(|other| !matches!(other, Ask::Aside(..)));
-    }
-    if matches!((queue.back(), &ask), (Some(Ask::Draw(..)), Ask::Draw(..))) {
-        queue.pop_back();
-    }
-    queue.push_back(ask);
 }
 
 /// The same view with its target where the middle of the scene is nearest to the axis, so that it turns about that.
@@ -722,7 +709,7 @@ mod tests {
             panic!("another command");
         };
         let ((_, asks), (news, _)) = (channel(), channel());
-        let taken = (folder.path().to_owned(), Arc::default());
+        let taken = (folder.path().to_owned(), Ends::default());
         let painter = Painter::new(said.0.args, asks, news, Box::new(|| {}), taken);
         let order = Order {
             change: 1,
@@ -744,7 +731,8 @@ mod tests {
         std::fs::remove_file(&file).expect("it is there");
         let made = || {
             let scene = (&Processor as &dyn Engine, &prepared);
-            let made = painter.renderer(scene, (&args, &order), &mut VecDeque::new());
+            let asked = (&args, painter.asked(&order));
+            let made = painter.renderer(scene, asked, &mut VecDeque::new());
             made.map(|kept| kept.style).map_err(|fault| fault.message)
         };
         assert_eq!(made(), Ok(job.look.style.clone()));

@@ -1,8 +1,9 @@
 //! Properties of graphs and of the engine that runs them on the processor.
 
 use npr_core::geometry::Stamp;
+use npr_core::interrupt::{Interrupt, Interrupted};
 use npr_core::window::Window;
-use npr_gpu::engine::{Engine, Session};
+use npr_gpu::engine::{Engine, EngineError, Session};
 use npr_gpu::graph::{Graph, ResourceId};
 use npr_gpu::pass::{Agreement, Format, Pass, Work, read, texture};
 use npr_gpu::passes::line::CLAIM_PIXELS;
@@ -51,6 +52,20 @@ proptest! {
             before
         });
         prop_assert_eq!(session.read(whole).expect(NEVER_FAILS), before.collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn a_run_that_is_interrupted_is_none_and_the_next_is_whole(values in values()) {
+        let (mut session, [buffer, whole]) = summed(values.len());
+        let interrupt = Interrupt::new();
+        session.heed(&interrupt);
+        session.write(buffer, &values).expect(NEVER_FAILS);
+        let wanted = session.run_reading(&[whole]).expect(NEVER_FAILS).1;
+        interrupt.raise();
+        prop_assert_eq!(session.run(), Err(EngineError::Interrupted(Interrupted)));
+        prop_assert_eq!(session.in_flight(), 0);
+        interrupt.lower();
+        prop_assert_eq!(session.run_reading(&[whole]).expect(NEVER_FAILS).1, wanted);
     }
 
     #[test]

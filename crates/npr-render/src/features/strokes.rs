@@ -125,7 +125,8 @@ pub(crate) fn find(
     let of_style = line_options(style, options);
     for method in style.curve_sources() {
         let of_method = (&LineOptions { method, ..of_style }, leaves_open);
-        let drawing = lines.draw_curves(camera, style, of_method, &options.pictures)?;
+        let beside = (&options.pictures, &options.interrupt);
+        let drawing = lines.draw_curves(camera, style, of_method, beside)?;
         report.times.extend_from_slice(lines.times());
         report.notices.extend_from_slice(&drawing.notices);
         let drawing = drawing.scaled(options.stroke_scale());

@@ -472,9 +472,9 @@ impl LineModel {
             mut strokes,
             left_out,
         } = self.strokes(&prepared, &view, (style, options), &paint, (find, joints))?;
-        watch(WidthStep::Source, &strokes);
+        watch(WidthStep::Source, &strokes)?;
         paint.apply(&mut strokes);
-        watch(WidthStep::Part, &strokes);
+        watch(WidthStep::Part, &strokes)?;
         if let Some(held) = &mut held {
             held.strokes.hold(&mut strokes, &self.shape, &projector);
         }
@@ -497,7 +497,7 @@ impl LineModel {
         if let Some(movement) = movement.filter(|_| !options.method.is_of_pixels()) {
             let view = (camera, style, options.size);
             self.smear(&mut strokes, (movement, &projector), view);
-            watch(WidthStep::Motion, &strokes);
+            watch(WidthStep::Motion, &strokes)?;
         }
         let manners = StrokeManners::new(&self.parts, style);
         let manner_of = |stroke: &Stroke| {

@@ -12,6 +12,7 @@ use crate::motion_lines;
 use crate::movement::Movement;
 use crate::options::Picture;
 use npr_core::camera::Camera;
+use npr_core::interrupt::Interrupt;
 use npr_gpu::engine::{Engine, PassTime};
 use npr_scene::Scene;
 use npr_stylesheet::Style;
@@ -201,7 +202,10 @@ impl<'a> LineRenderer<'a> {
             options,
             self.finder.as_mut(),
             (None, self.movement.as_deref()),
-            &|step, strokes| probe.see(step, strokes),
+            &|step, strokes| {
+                probe.see(step, strokes);
+                Ok(())
+            },
         )?;
         model.pointed((camera, style, options), &drawing, &probe)
     }
@@ -216,7 +220,10 @@ impl<'a> LineRenderer<'a> {
         spot: Spot,
     ) -> Result<Pointed, RenderError> {
         let probe = Probe::new(spot);
-        let see = |step: WidthStep, strokes: &[Stroke]| probe.see(step, strokes);
+        let see = |step: WidthStep, strokes: &[Stroke]| {
+            probe.see(step, strokes);
+            Ok(())
+        };
         let drawing = self.watched_curves(camera, style, options, pictures, &see)?;
         self.model()
             .pointed((camera, style, options), &drawing, &probe)
@@ -235,6 +242,7 @@ impl<'a> LineRenderer<'a> {
             if step == WidthStep::Part {
                 found.replace(strokes.to_vec());
             }
+            Ok(())
         };
         let drawing = self.watched_curves(camera, style, options, pictures, &see)?;
         Ok(Drawing {
@@ -260,20 +268,22 @@ impl<'a> LineRenderer<'a> {
     }
 
     /// The lines of the parts whose style asks for curves that are found as `options` says; smoke hides none of them.
-    /// Where it `is_open` what is seen of them, all are there.
+    /// Where it `is_open` what is seen of them, all are there. A flag that is raised ends the work between two steps.
     pub(crate) fn draw_curves(
         &mut self,
         camera: &Camera,
         style: &Style,
         (options, is_open): (&LineOptions, bool),
-        pictures: &BTreeMap<String, Picture>,
+        (pictures, interrupt): (&BTreeMap<String, Picture>, &Interrupt),
     ) -> Result<Drawing, RenderError> {
+        interrupt.check()?;
         self.finder.start_view();
         let model = self.posed.as_deref().unwrap_or(self.given);
         let find: &mut dyn Finder = self.finder.as_mut();
         let before = (self.held.as_mut(), self.movement.as_deref());
         let of_method = (options, is_open);
-        model.draw_curves(camera, style, of_method, pictures, (find, before), &nobody)
+        let watch: Watch<'_> = &|_, _| interrupt.check();
+        model.draw_curves(camera, style, of_method, pictures, (find, before), watch)
     }
 
     /// How long each pass of the last view took; none on the processor.

@@ -12,6 +12,7 @@ use facts::Facts;
 use glam::DVec3;
 use npr_core::camera::Camera;
 use npr_core::geometry::NONE;
+use npr_core::interrupt::Interrupted;
 use npr_stylesheet::Style;
 use npr_vector::project::Projector;
 use npr_vector::stroke::{Drawing, Kind, Stroke, StrokePoint};
@@ -41,11 +42,13 @@ pub(crate) enum WidthStep {
     Taper,
 }
 
-/// Sees the strokes of a drawing after every step.
-pub(crate) type Watch<'a> = &'a dyn Fn(WidthStep, &[Stroke]);
+/// Sees the strokes of a drawing after every step, and may end the work there.
+pub(crate) type Watch<'a> = &'a dyn Fn(WidthStep, &[Stroke]) -> Result<(), Interrupted>;
 
 /// Watches nothing.
-pub(super) fn nobody(_: WidthStep, _: &[Stroke]) {}
+pub(super) fn nobody(_: WidthStep, _: &[Stroke]) -> Result<(), Interrupted> {
+    Ok(())
+}
 
 /// A place of a picture that somebody points at.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -7,6 +7,7 @@ mod bands;
 mod costs;
 #[cfg(feature = "wgpu")]
 mod embedded;
+mod interrupts;
 mod memory;
 mod sequences;
 mod smoke;

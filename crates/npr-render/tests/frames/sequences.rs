@@ -21,20 +21,20 @@ const SIZE: [u32; 2] = [120, 90];
 /// Most spheres of a shot.
 const SPHERES: u32 = 12;
 
-fn scene() -> Scene {
+pub fn scene() -> Scene {
     let resources = MemoryResources::default();
     let file = Sheet::new(3).glb();
     load_bytes("sheet", &file, None, &resources, &Limits::default()).unwrap()
 }
 
-fn style(keys: &[&str]) -> Style {
+pub fn style(keys: &[&str]) -> Style {
     let every_part = "[[rule]]\nmatch.object = '*'\n";
     let mut style = Style::from_toml(every_part, &|_| Err(String::new())).unwrap();
     keys.iter().for_each(|key| style.set(key).unwrap());
     style
 }
 
-fn options(tile_pixels: u32) -> RendererOptions {
+pub fn options(tile_pixels: u32) -> RendererOptions {
     RendererOptions {
         smoke: Some(puffs(SPHERES)),
         tile_pixels,
@@ -56,7 +56,7 @@ fn puffs(count: u32) -> Smoke {
     }
 }
 
-fn camera(angle_deg: f32) -> Camera {
+pub fn camera(angle_deg: f32) -> Camera {
     let angle = angle_deg.to_radians();
     Camera {
         eye: [1.0 + 5.0 * sin(angle), 3.0, 1.0 + 5.0 * cos(angle)],
@@ -74,7 +74,7 @@ fn shot(angle_deg: f32, count: Option<u32>) -> Shot {
 }
 
 /// The processor, and a device where there is one.
-fn engines() -> Vec<&'static dyn Engine> {
+pub fn engines() -> Vec<&'static dyn Engine> {
     let mut engines: Vec<&'static dyn Engine> = vec![&Processor];
     #[cfg(feature = "wgpu")]
     engines.extend(npr_gpu::device::testing::device().map(|device| device as &dyn Engine));
@@ -92,7 +92,7 @@ fn one_by_one(renderer: &mut Renderer<'_>, shots: &[Shot]) -> Vec<Frame> {
 }
 
 /// Looks whose frames have something of their own to remember while the next is drawn.
-const LOOKS: [&[&str]; 9] = [
+pub const LOOKS: [&[&str]; 9] = [
     &[],
     &["line.method=angle", "light.shadow=true"],
     &[

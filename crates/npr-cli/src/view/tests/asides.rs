@@ -96,3 +96,55 @@ fn a_small_picture_of_a_preset_has_the_strokes_of_the_large_one() {
     let small = ink_of(&beside(&mut shop, &small).expect("a picture"));
     assert!((small / large - 1.0).abs() < 0.15, "{small} of {large}");
 }
+
+#[test]
+fn a_full_picture_is_ended_where_another_is_asked_for_and_a_draft_is_not() {
+    let mut shop = Shop::new("--backend cpu");
+    shop.picture(&order(&[], None));
+    let large = Order {
+        change: 2,
+        size: [1600, 1200],
+        ..order(&[], Some(aside(true)))
+    };
+    for is_draft in [false, true] {
+        // The next is asked for while the large one is drawn.
+        let large = Order {
+            is_draft,
+            ..large.clone()
+        };
+        shop.desk.draw(large);
+        thread::sleep(Duration::from_millis(40));
+        shop.desk.draw(Order {
+            change: 3,
+            is_draft: true,
+            ..order(&[], Some(aside(false)))
+        });
+        let first = shop.wait(|news| match news {
+            News::Picture(picture) => Some(picture.order.change),
+            _ => None,
+        });
+        assert_eq!(first, if is_draft { 2 } else { 3 });
+    }
+}
+
+#[test]
+fn a_picture_is_drawn_to_its_end_where_nothing_else_is_asked_for() {
+    let mut shop = Shop::new("--backend cpu");
+    let now = order(&["line.color=#0000ff"], Some(aside(true)));
+    let whole = shop.picture(&now);
+    for change in 2..6 {
+        // The flag is raised late, and for nothing.
+        let again = Order {
+            change,
+            ..now.clone()
+        };
+        shop.desk.draw(again.clone());
+        thread::sleep(Duration::from_millis(change));
+        shop.desk.ends.picture.raise();
+        let drawn = shop.wait(|news| match news {
+            News::Picture(picture) if picture.order == again => Some(*picture),
+            _ => None,
+        });
+        assert!(drawn.rgba == whole.rgba);
+    }
+}
