@@ -9,12 +9,16 @@ mod save;
 mod why;
 
 use crate::arguments::{Said, ViewArguments};
+use crate::ending::has_ending;
 use crate::fault::{Exit, Fault};
 use crate::message::quoted;
+use crate::source::has_volume_name;
 use crate::style_source::StyleSource;
 use asks::{Ask, Ends};
 use npr_stylesheet::{DEFAULT_PRESET, Stated};
-use npr_view::{Film, Host, News, Order, Pose, Question, Sheet, Studio, Take, shell_line};
+use npr_view::{
+    FileKind, Film, Host, News, Order, Pose, Question, Sheet, Studio, Take, shell_line,
+};
 use order::{pose_of, render_arguments};
 use painter::Painter;
 use std::path::{Path, PathBuf};
@@ -168,6 +172,17 @@ impl Host for Desk {
         StyleSource::of(Some(name))
             .load(external)
             .map_err(|fault| fault.message)
+    }
+
+    fn kind(&self, path: &str) -> FileKind {
+        let path = Path::new(path);
+        let has_one_of = |endings: &[&str]| endings.iter().any(|ending| has_ending(path, ending));
+        match () {
+            () if has_ending(path, "toml") => FileKind::Style,
+            () if has_volume_name(path) => FileKind::Volume,
+            () if has_one_of(&["png", "jpg", "jpeg"]) => FileKind::Picture,
+            () => FileKind::Scene,
+        }
     }
 
     fn open(&mut self, path: &str) {

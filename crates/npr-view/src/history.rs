@@ -6,7 +6,7 @@ use crate::sheet::Sheet;
 /// Most steps that can be undone.
 const STEPS_MAX: usize = 200;
 
-/// The styles, faces and turned bones before and after the present ones.
+/// The styles, faces, turned bones and smoke before and after the present ones.
 #[derive(Debug, Default)]
 pub(crate) struct History {
     past: Vec<Step>,
@@ -21,6 +21,7 @@ enum Step {
     Style(Box<Sheet>),
     Face(Face),
     Turns(Vec<(String, [f32; 3])>),
+    Volumes(Vec<String>),
 }
 
 impl Step {
@@ -30,6 +31,7 @@ impl Step {
             Self::Style(other) => std::mem::swap(&mut **other, sheet),
             Self::Face(other) => std::mem::swap(other, &mut pose.face),
             Self::Turns(other) => std::mem::swap(other, &mut pose.turns),
+            Self::Volumes(other) => std::mem::swap(other, &mut pose.volumes),
         }
     }
 }
@@ -52,7 +54,14 @@ impl History {
         self.add(&key, || Step::Turns(before.turns.clone()));
     }
 
-    /// Forgets faces and turned bones: another scene is shown.
+    /// Notes what smoke is in the scene before it changes.
+    pub fn note_volumes(&mut self, before: &Pose) {
+        self.add("smoke in the scene", || {
+            Step::Volumes(before.volumes.clone())
+        });
+    }
+
+    /// Forgets faces, turned bones and smoke: another scene is shown.
     pub fn forget_figure(&mut self) {
         self.close();
         for steps in [&mut self.past, &mut self.future] {
@@ -82,7 +91,7 @@ impl History {
         (!self.past.is_empty(), !self.future.is_empty())
     }
 
-    /// Puts what was there before the last change in place of the present style, face or bones.
+    /// Puts what was there before the last change in place of the present style, face, bones or smoke.
     pub fn undo(&mut self, sheet: &mut Sheet, pose: &mut Pose) {
         self.close();
         if let Some(mut step) = self.past.pop() {

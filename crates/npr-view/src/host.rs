@@ -118,6 +118,19 @@ pub enum Take {
     Svg,
 }
 
+/// What a file is, by its name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FileKind {
+    /// A style file.
+    Style,
+    /// A picture.
+    Picture,
+    /// A volume of smoke.
+    Volume,
+    /// A scene, or a motion.
+    Scene,
+}
+
 /// The program that a studio is shown in: it reads files and draws.
 pub trait Host {
     /// The style of a preset's name or of a file's path.
@@ -126,6 +139,9 @@ pub trait Host {
     ///
     /// What is wrong with it, in one line.
     fn style(&mut self, name: &str) -> Result<Stated, String>;
+
+    /// What a file is, by its name.
+    fn kind(&self, path: &str) -> FileKind;
 
     /// Opens a scene in place of the present one, or a motion that its figure plays; [`News`] tells how that went.
     fn open(&mut self, path: &str);

@@ -19,6 +19,8 @@ pub struct Pose {
     pub turns: Vec<(String, [f32; 3])>,
     /// What the face of a figure does besides.
     pub face: Face,
+    /// Files of smoke that stand in the scene besides, as `--volume` names them.
+    pub volumes: Vec<String>,
 }
 
 /// What the face of a figure does.
@@ -102,6 +104,8 @@ impl Pose {
             let share = number_text(f64::from(*share));
             words.push(format!("--expression={name}={share}"));
         }
+        let volumes = self.volumes.iter();
+        words.extend(volumes.map(|name| format!("--volume={name}")));
         words.extend(self.face.look_at.map(|look_at| match look_at {
             LookAt::Camera => "--look-at=camera".to_owned(),
             LookAt::Place([x, y, z]) => format!("--look-at={x},{y},{z}"),
@@ -155,6 +159,7 @@ mod tests {
                 expressions: vec![("happy".to_owned(), 0.3)],
                 look_at: Some(LookAt::Place([0.0, -1.5, 2.0])),
             },
+            volumes: vec!["a b.vdb".to_owned()],
         };
         assert_eq!(
             pose.options(),
@@ -164,6 +169,7 @@ mod tests {
                 "--clip=-Walk 2",
                 "--time=-0.1",
                 "--expression=happy=0.3",
+                "--volume=a b.vdb",
                 "--look-at=0,-1.5,2",
             ]
         );

@@ -2,6 +2,7 @@
 
 mod aside;
 mod canvas;
+mod dropped;
 mod figure;
 mod filming;
 mod gallery;
@@ -18,7 +19,7 @@ use npr_stylesheet::StyleError;
 use crate::beside::{Gallery, Split};
 use crate::film::Filming;
 use crate::history::History;
-use crate::host::{Host, News, Order, Picture, Take};
+use crate::host::{FileKind, Host, News, Order, Picture, Take};
 use crate::pace::Pace;
 use crate::panel::{Edit, Panel};
 use crate::pose::Pose;
@@ -72,6 +73,8 @@ pub struct Studio {
     asked: Asked,
     /// Whether clicks on the picture add guide points, and take them away.
     places_guides: bool,
+    /// Files that were dropped, of which it is asked what they are for.
+    dropped: Vec<(String, FileKind)>,
 }
 
 impl Studio {
@@ -105,6 +108,7 @@ impl Studio {
             told: None,
             asked: Asked::default(),
             places_guides: false,
+            dropped: Vec::new(),
         }
     }
 
@@ -168,6 +172,7 @@ impl Studio {
         egui::CentralPanel::default()
             .frame(egui::Frame::NONE)
             .show(ui, |ui| self.show_canvas(ui));
+        self.show_dropped(ui);
         self.ask(ui);
     }
 
@@ -246,18 +251,6 @@ impl Studio {
         }
         self.shown = Some((picture, texture));
         ui.ctx().request_repaint();
-    }
-
-    /// Opens a style file or a scene that is dropped on the window.
-    fn take_dropped(&mut self, ui: &Ui) {
-        let dropped = ui.input(|input| input.raw.dropped_files.clone());
-        for file in dropped {
-            let path = file.path().to_string_lossy().into_owned();
-            match path.to_lowercase().ends_with(".toml") {
-                true => self.take_style(&path, ui),
-                false => self.host.open(&path),
-            }
-        }
     }
 
     /// Takes a style by its name. What was changed stays, where it is the same style read anew.
@@ -443,6 +436,7 @@ impl Studio {
             .auto_shrink([false; 2])
             .show(ui, |ui| {
                 self.show_figure(ui);
+                self.show_volumes(ui);
                 self.panel.show(ui, &self.sheet)
             })
             .inner;

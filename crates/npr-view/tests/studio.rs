@@ -6,6 +6,8 @@
     reason = "tests fail by panicking"
 )]
 
+#[path = "studio/dropped.rs"]
+mod dropped;
 #[path = "studio/gallery.rs"]
 mod gallery;
 #[path = "studio/joints.rs"]
@@ -26,7 +28,9 @@ use egui::{Key, Modifiers, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
 use egui_kittest::{Harness, HarnessBuilder, TestRenderer};
 use npr_stylesheet::{Field, Form, Stated, fields};
-use npr_view::{Film, Host, News, Order, Picture, Pose, Question, Sheet, Studio, Take, Viewpoint};
+use npr_view::{
+    FileKind, Film, Host, News, Order, Picture, Pose, Question, Sheet, Studio, Take, Viewpoint,
+};
 use std::cell::RefCell;
 use std::rc::Rc;
 
@@ -68,6 +72,15 @@ struct Easel(Rc<RefCell<Asked>>);
 impl Host for Easel {
     fn style(&mut self, name: &str) -> Result<Stated, String> {
         Stated::preset(name).map_err(|error| error.to_string())
+    }
+
+    fn kind(&self, path: &str) -> FileKind {
+        match path.rsplit('.').next() {
+            Some("toml") => FileKind::Style,
+            Some("png") => FileKind::Picture,
+            Some("vdb") => FileKind::Volume,
+            _ => FileKind::Scene,
+        }
     }
 
     fn open(&mut self, path: &str) {

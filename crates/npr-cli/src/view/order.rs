@@ -2,7 +2,8 @@
 
 use crate::arguments::{
     AnimateArguments, CameraArguments, ExpressionShare, FilmArguments, LineArguments, LookedAt,
-    Point, PoseArguments, RenderArguments, SheetArguments, Size, Switch, ViewArguments,
+    PlacedVolume, Point, PoseArguments, RenderArguments, SheetArguments, Size, Switch,
+    ViewArguments,
 };
 use npr_core::math::{cos_f64, sin_f64};
 use npr_scene::{Bone, Posture};
@@ -32,6 +33,8 @@ pub fn order_arguments(args: &ViewArguments, scene: &Path, order: &Order) -> Ren
     let [width, height] = order.size;
     drawing.size = Size { width, height };
     drawing.pose = pose_arguments(&order.pose);
+    let volumes = order.pose.volumes.iter().map(|text| placed(text));
+    drawing.volumes.volumes.splice(..0, volumes);
     drawing.quiet = true;
     drawing.timings = None;
     if let Some(point) = &order.viewpoint {
@@ -94,6 +97,14 @@ pub fn turned(pose: &Pose) -> Posture {
     }
 }
 
+/// A volume of a studio as the option reads it.
+fn placed(text: &str) -> PlacedVolume {
+    text.parse().unwrap_or_else(|_| PlacedVolume {
+        name: PathBuf::from(text),
+        place: None,
+    })
+}
+
 /// The pose of a studio as arguments.
 fn pose_arguments(pose: &Pose) -> PoseArguments {
     let expression = |(name, share): &(String, f32)| ExpressionShare {
@@ -140,6 +151,7 @@ pub fn pose_of(args: &PoseArguments) -> Pose {
         bones: args.pose.as_ref().map(text),
         turns: Vec::new(),
         face: face_of(args),
+        volumes: Vec::new(),
     }
 }
 

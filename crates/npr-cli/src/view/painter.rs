@@ -290,7 +290,7 @@ impl Painter {
         let path = self.scene.borrow().clone();
         let args = order_arguments(&self.args, &path, first);
         let job = self.job(&args)?;
-        self.style_files.replace(watched(job.look.inputs()));
+        self.watch_style(&job);
         self.is_stale.set(false);
         let (painted, mut prepared) = self.prepared(&job, loaded)?;
         if let Some(lines) = &mut prepared.subject.lines {
@@ -319,7 +319,8 @@ impl Painter {
                 playbill::painted(expressions, &loaded.scene).is_ok_and(|other| other == painted)
             };
             let serves = is_same || self.serves((&style, &prepared), &path, asked);
-            if self.is_stale.get() || !serves || !is_painted_so {
+            let is_smoke_so = asked.pose.volumes == first.pose.volumes;
+            if self.is_stale.get() || !serves || !is_painted_so || !is_smoke_so {
                 return Ok(next);
             }
             order = asked.clone();
@@ -417,6 +418,16 @@ impl Painter {
         Job::drawn_into(args, source, target, PictureFormat::Png)
     }
 
+    /// Watches the files that a picture is made from besides its scene.
+    fn watch_style(&self, job: &Job<'_>) {
+        let volumes = job.args.drawing.volumes.volumes.iter();
+        let files = job
+            .look
+            .inputs()
+            .chain(volumes.map(|volume| volume.name.clone()));
+        self.style_files.replace(watched(files));
+    }
+
     /// Whether an order can be drawn of a scene that was prepared for another style.
     fn serves(&self, (style, prepared): (&Style, &Prepared), path: &Path, order: &Order) -> bool {
         let args = order_arguments(&self.args, path, order);
@@ -429,7 +440,7 @@ impl Painter {
             && asked.curve_sources().eq(style.curve_sources())
             && (order.is_draft || prepared.subject.serves(style, asked));
         if serves && !order.is_draft {
-            self.style_files.replace(watched(job.look.inputs()));
+            self.watch_style(&job);
         }
         self.read
             .replace(Some((order.clone(), job.look.style, job.options)));

@@ -11,6 +11,7 @@ use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
 mod asides;
+mod dropped;
 mod endurance;
 mod films;
 mod hand;

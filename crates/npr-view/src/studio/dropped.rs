@@ -1,0 +1,155 @@
+//! Files that are dropped on the window: styles and scenes are opened, and of pictures and smoke it is asked what they
+//! are for.
+
+use egui::{Button, CollapsingHeader, Id, Modal, RichText, Ui};
+use toml::Value;
+
+use super::Studio;
+use crate::host::FileKind;
+use crate::panel::{Edit, name_it};
+
+/// What a picture can be for: the key that takes its path, and its words.
+const PICTURE_USES: [(&str, &str); 4] = [
+    ("background", "Background"),
+    ("line.brush.image", "Brush of lines"),
+    ("ink.hatch.image", "Hatching"),
+    ("shade.ramp_image", "Ramp of tones"),
+];
+
+/// What searches find the smoke of a scene by, besides the names of files.
+const WORDS: &str = "smoke volume";
+
+/// What is done with a file.
+enum Choice {
+    /// Its path becomes the value of a key.
+    Key(&'static str),
+    /// It is smoke in the scene.
+    Smoke,
+    /// It is opened in place of the scene.
+    Open,
+    /// Nothing.
+    Leave,
+}
+
+impl Studio {
+    /// Takes files that are dropped on the window.
+    pub(super) fn take_dropped(&mut self, ui: &Ui) {
+        let dropped = ui.input(|input| input.raw.dropped_files.clone());
+        for file in dropped {
+            let path = file.path().to_string_lossy().into_owned();
+            match self.host.kind(&path) {
+                FileKind::Style => self.take_style(&path, ui),
+                FileKind::Picture => self.dropped.push((path, FileKind::Picture)),
+                FileKind::Volume if self.holds_surfaces() => {
+                    self.dropped.push((path, FileKind::Volume));
+                }
+                FileKind::Volume | FileKind::Scene => self.host.open(&path),
+            }
+        }
+    }
+
+    /// Whether a scene is shown that is no smoke alone.
+    fn holds_surfaces(&self) -> bool {
+        !self.scene.is_empty() && self.host.kind(&self.scene) != FileKind::Volume
+    }
+
+    /// Asks what the first of the dropped files is for, and does it.
+    pub(super) fn show_dropped(&mut self, ui: &Ui) {
+        // Ask.
+        let Some((path, kind)) = self.dropped.first().cloned() else {
+            return;
+        };
+        let mut chosen = None;
+        let modal = Modal::new(Id::unique("dropped file")).show(ui.ctx(), |ui| {
+            let name = path.rsplit(['/', '\\']).next().unwrap_or(&path);
+            ui.label(RichText::new(format!("Use {name} as")).strong());
+            ui.add_space(4.0);
+            let mut offer = |ui: &mut Ui, text: &str, choice: Choice| {
+                if ui
+                    .add(Button::new(text).min_size(egui::vec2(180.0, 0.0)))
+                    .clicked()
+                {
+                    chosen = Some(choice);
+                }
+            };
+            match kind {
+                FileKind::Picture => {
+                    for (key, text) in PICTURE_USES {
+                        offer(ui, text, Choice::Key(key));
+                    }
+                }
+                _ => {
+                    offer(ui, "Smoke in this scene", Choice::Smoke);
+                    offer(ui, "A scene of its own", Choice::Open);
+                }
+            }
+            ui.add_space(4.0);
+            offer(ui, "Cancel", Choice::Leave);
+        });
+        if modal.should_close() {
+            chosen = Some(Choice::Leave);
+        }
+
+        // Do what is chosen.
+        let Some(choice) = chosen else {
+            return;
+        };
+        self.dropped.remove(0);
+        match choice {
+            Choice::Key(key) => self.edit(&Edit::Set(key.to_owned(), Value::String(path)), ui),
+            Choice::Smoke => {
+                let volumes = [&self.pose.volumes[..], &[path]].concat();
+                self.take_volumes(volumes, ui);
+            }
+            Choice::Open => self.host.open(&path),
+            Choice::Leave => {}
+        }
+        self.history.close();
+    }
+
+    /// Lists the smoke that was dropped into the scene, with a way to take it out.
+    pub(super) fn show_volumes(&mut self, ui: &mut Ui) {
+        // Find what is searched for.
+        let search = self.panel.search.to_lowercase();
+        let is_hit = |name: &str| {
+            let text = format!("{WORDS} {name}").to_lowercase();
+            search.split_whitespace().all(|word| text.contains(word))
+        };
+        let volumes = &self.pose.volumes;
+        if !volumes.iter().any(|name| is_hit(name)) {
+            return;
+        }
+
+        // Show it.
+        let mut removed = None;
+        let title = RichText::new("Smoke in the scene").strong().size(15.0);
+        CollapsingHeader::new(title)
+            .default_open(true)
+            .show(ui, |ui| {
+                for (number, name) in volumes.iter().enumerate().filter(|(_, name)| is_hit(name)) {
+                    ui.horizontal(|ui| {
+                        ui.add(egui::Label::new(name).truncate());
+                        let out = ui.add(Button::new("×").frame(false));
+                        name_it(&out, &format!("take out {name}"));
+                        if out.on_hover_text("take it out of the scene").clicked() {
+                            removed = Some(number);
+                        }
+                    });
+                }
+            });
+        if let Some(number) = removed {
+            let mut volumes = volumes.clone();
+            volumes.remove(number);
+            self.take_volumes(volumes, ui);
+        }
+    }
+
+    /// Lets other smoke stand in the scene, which is a step to undo.
+    fn take_volumes(&mut self, volumes: Vec<String>, ui: &Ui) {
+        self.history.close();
+        self.history.note_volumes(&self.pose);
+        self.history.close();
+        self.pose.volumes = volumes;
+        self.changed(ui);
+    }
+}
