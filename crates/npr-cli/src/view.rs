@@ -8,11 +8,12 @@ mod save;
 mod why;
 
 use crate::arguments::{Said, ViewArguments};
+use crate::debug_layer::DebugLayer;
 use crate::fault::{Exit, Fault};
 use crate::message::quoted;
 use crate::style_source::StyleSource;
 use npr_stylesheet::{DEFAULT_PRESET, Stated};
-use npr_view::{Film, Host, News, Order, Pose, Question, Sheet, Studio, Take, shell_line};
+use npr_view::{Film, Host, Layer, News, Order, Pose, Question, Sheet, Studio, Take, shell_line};
 use order::{pose_of, render_arguments};
 use painter::{Ask, Painter};
 use std::path::{Path, PathBuf};
@@ -171,6 +172,11 @@ impl Host for Desk {
             .map_err(|fault| fault.message)
     }
 
+    fn layers(&self) -> Vec<Layer> {
+        let named = |(name, text)| Layer { name, text };
+        DebugLayer::all().map(named).collect()
+    }
+
     fn open(&mut self, path: &str) {
         self.ask(Ask::Open(PathBuf::from(path)));
     }
@@ -226,7 +232,7 @@ impl Host for Desk {
                     Err(fault) => News::Fault(fault.message),
                 });
             }
-            Take::Png | Take::Svg => self.ask(Ask::Save(take, order.clone())),
+            Take::Png | Take::Svg | Take::Json => self.ask(Ask::Save(take, order.clone())),
         }
     }
 

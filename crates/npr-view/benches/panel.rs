@@ -4,7 +4,7 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use npr_stylesheet::Stated;
-use npr_view::{Film, Host, News, Order, Pose, Question, Sheet, Studio, Take};
+use npr_view::{Film, Host, Layer, News, Order, Pose, Question, Sheet, Studio, Take};
 use std::hint::black_box;
 use toml::Value;
 
@@ -14,6 +14,10 @@ struct Idle;
 impl Host for Idle {
     fn style(&mut self, name: &str) -> Result<Stated, String> {
         Stated::preset(name).map_err(|error| error.to_string())
+    }
+
+    fn layers(&self) -> Vec<Layer> {
+        Vec::new()
     }
 
     fn open(&mut self, _: &str) {}

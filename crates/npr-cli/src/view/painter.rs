@@ -1,7 +1,7 @@
 //! The thread that draws what a studio shows.
 
 use super::actor::{Actor, Handed};
-use super::order::order_arguments;
+use super::order::{layer_of, order_arguments};
 use super::playbill;
 use super::save;
 use super::why;
@@ -21,10 +21,10 @@ use crate::viewpoint::{self, Seen, Viewed};
 use npr_core::camera::{Camera, Projection};
 use npr_gpu::engine::Engine;
 use npr_gpu::processor::Processor;
-use npr_render::{Frame, Renderer, RendererOptions, Spot};
+use npr_render::{Frame, RenderError, Renderer, RendererOptions, Spot};
 use npr_scene::Material;
 use npr_stylesheet::Style;
-use npr_view::{Film, News, Order, Picture, Question, Take, Viewpoint};
+use npr_view::{Film, News, Order, PassSeconds, Picture, Question, Take, Viewpoint};
 use std::cell::{Cell, RefCell};
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
@@ -377,7 +377,7 @@ impl Painter {
             let scene = (engine, (&prepared, &mut actor));
             let (mut found, camera, viewpoint) =
                 self.poised(scene, &path, order, &mut VecDeque::new())?;
-            let frame = found.renderer.draw(&camera)?;
+            let frame = frame_of(&mut found.renderer, &camera, order)?;
             Ok(picture((engine, &actor), order, viewpoint, (frame, start)))
         };
         let drawn: Result<Picture, Fault> = draw();
@@ -455,9 +455,10 @@ impl Painter {
     }
 
     /// Whether the strokes of a draft would take too long: those of another view than that of the last full picture
-    /// have to be found.
+    /// have to be found. A layer shows how the style draws, and never another method.
     fn is_rough(&self, order: &Order) -> bool {
-        order.is_draft && !self.is_known(order) && self.strokes_s.get() > STROKES_S
+        let is_free = order.is_draft && order.layer.is_none();
+        is_free && !self.is_known(order) && self.strokes_s.get() > STROKES_S
     }
 
     /// Whether the last full picture shows the scene of an order as its camera does.
@@ -491,6 +492,7 @@ impl Painter {
             let other = &other.order;
             is_alike
                 && other.size == order.size
+                && other.layer == order.layer
                 && other.style == order.style
                 && other.overrides == order.overrides
         };
@@ -571,7 +573,7 @@ impl Painter {
         let scene = (engine, (prepared, &mut *actor));
         let (mut found, camera, viewpoint) = self.poised(scene, path, order, kept)?;
         let drawn = Instant::now();
-        let frame = found.renderer.draw(&camera)?;
+        let frame = frame_of(&mut found.renderer, &camera, order)?;
         if !order.is_draft {
             let passes: Duration = frame.times.iter().map(|pass| pass.time).sum();
             let strokes = drawn.elapsed().saturating_sub(passes);
@@ -622,6 +624,18 @@ fn keep<'a>(kept: &mut VecDeque<Kept<'a>>, found: Kept<'a>) {
     kept.truncate(KEPT);
 }
 
+/// The frame of an order, or the layer that it shows.
+fn frame_of(
+    renderer: &mut Renderer<'_>,
+    camera: &Camera,
+    order: &Order,
+) -> Result<Frame, RenderError> {
+    match layer_of(order) {
+        None => renderer.draw(camera),
+        Some(layer) => layer.draw(renderer, camera, order.size),
+    }
+}
+
 /// A frame of an order as a picture, which was begun at a time.
 fn picture(
     (engine, actor): (&dyn Engine, &Actor),
@@ -630,11 +644,16 @@ fn picture(
     (mut frame, start): (Frame, Instant),
 ) -> Picture {
     frame.notices.extend_from_slice(actor.warnings());
+    let passes = frame.times.iter().map(|pass| PassSeconds {
+        name: pass.name,
+        seconds: pass.time.as_secs_f32(),
+    });
     Picture {
         rgba: frame.rgba,
         viewpoint,
         engine: engine.describe(),
         seconds: start.elapsed().as_secs_f32(),
+        passes: engine.tells_passes_apart().then(|| passes.collect()),
         notices: frame.notices,
         order: order.clone(),
     }
@@ -704,6 +723,45 @@ mod tests {
     use clap::Parser;
     use std::sync::mpsc::channel;
 
+    /// A painter of a scene that nobody hears.
+    fn painter_of(scene: &Path) -> Painter {
+        let words = ["npr", "view", "--backend", "cpu"].map(Into::into);
+        let words = words.into_iter().chain([scene.to_owned().into_os_string()]);
+        let parsed = Arguments::try_parse_from(words).expect("a right line");
+        let Command::View(said) = parsed.command else {
+            panic!("another command");
+        };
+        let ((_, asks), (news, _)) = (channel(), channel());
+        let taken = (PathBuf::from("."), Arc::default());
+        Painter::new(said.0.args, asks, news, Box::new(|| {}), taken)
+    }
+
+    /// A draft in a style, from where the scene is framed.
+    fn draft(style: &str) -> Order {
+        Order {
+            change: 1,
+            style: style.to_owned(),
+            overrides: Vec::new(),
+            viewpoint: None,
+            pose: npr_view::Pose::default(),
+            layer: None,
+            size: [40, 30],
+            is_draft: true,
+        }
+    }
+
+    #[test]
+    fn a_draft_of_a_layer_is_drawn_by_the_method_of_the_style() {
+        let painter = painter_of(Path::new("a.obj"));
+        painter.strokes_s.set(1.0);
+        let picture = draft("ink");
+        let layer = Order {
+            layer: Some("kind".to_owned()),
+            ..picture.clone()
+        };
+        assert!(painter.is_rough(&picture) && !painter.is_rough(&layer));
+    }
+
     #[test]
     fn a_style_is_read_once_for_a_draft() {
         // Lay a painter before a triangle, with a style in a file.
@@ -715,24 +773,8 @@ mod tests {
         };
         write(&scene, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
         write(&file, "extends = \"ink\"\n");
-        let words = ["npr", "view", "--backend", "cpu"].map(Into::into);
-        let words = words.into_iter().chain([scene.clone().into_os_string()]);
-        let parsed = Arguments::try_parse_from(words).expect("a right line");
-        let Command::View(said) = parsed.command else {
-            panic!("another command");
-        };
-        let ((_, asks), (news, _)) = (channel(), channel());
-        let taken = (folder.path().to_owned(), Arc::default());
-        let painter = Painter::new(said.0.args, asks, news, Box::new(|| {}), taken);
-        let order = Order {
-            change: 1,
-            style: file.to_string_lossy().into_owned(),
-            overrides: Vec::new(),
-            viewpoint: None,
-            pose: npr_view::Pose::default(),
-            size: [40, 30],
-            is_draft: true,
-        };
+        let painter = painter_of(&scene);
+        let order = draft(&file.to_string_lossy());
         let args = order_arguments(&painter.args, &scene, &order);
         let job = painter.job(&args).expect("a style");
         let limits = painter.args.drawing.limits.limits();
