@@ -1,12 +1,15 @@
 //! Pictures of the stages of a frame, each shown in its place.
 
 use clap::ValueEnum;
+use npr_core::camera::Camera;
 use npr_core::color::{SrgbEncoder, premultiplied_light};
 use npr_core::math::mix_bits;
 use npr_core::outline::Outline;
 use npr_drawing::artwork::{ArtworkOptions, Mark, arrange};
 use npr_drawing::drawing::paint_over;
-use npr_render::{Drawing, Frame, Kind, LayerPixel, LineStage, StagePixel, SurfaceStage};
+use npr_render::{
+    Drawing, Frame, Kind, LayerPixel, LineStage, RenderError, Renderer, StagePixel, SurfaceStage,
+};
 use std::mem::take;
 
 /// A layer that is shown in place of the picture.
@@ -76,17 +79,45 @@ const FOUND_PX: f64 = 1.5;
 const BEHIND: f32 = 0.7;
 
 impl DebugLayer {
-    /// The names of all layers with what they show, a line each.
-    pub fn list() -> String {
+    /// The names of all layers, each with what it shows.
+    pub fn all() -> impl Iterator<Item = (String, String)> {
         let layers = Self::value_variants()
             .iter()
             .filter(|layer| **layer != Self::List);
         let values = layers.filter_map(Self::to_possible_value);
-        let line = |value: clap::builder::PossibleValue| {
+        values.map(|value| {
             let help = value.get_help().map(ToString::to_string);
-            format!("{:10} {}\n", value.get_name(), help.unwrap_or_default())
+            (value.get_name().to_owned(), help.unwrap_or_default())
+        })
+    }
+
+    /// The same, a line each.
+    pub fn list() -> String {
+        Self::all()
+            .map(|(name, text)| format!("{name:10} {text}\n"))
+            .collect()
+    }
+
+    /// The layer of a name, if there is one.
+    #[cfg(feature = "view")]
+    pub fn named(name: &str) -> Option<Self> {
+        let layer = Self::from_str(name, false).ok();
+        layer.filter(|layer| *layer != Self::List)
+    }
+
+    /// The layer of the frame of `size` pixels that a renderer draws, whose options ask for layers and stages.
+    pub fn draw(
+        self,
+        renderer: &mut Renderer<'_>,
+        camera: &Camera,
+        size: [u32; 2],
+    ) -> Result<Frame, RenderError> {
+        let mut frame = match self.lines() {
+            Some(stage) => self.frame_of(renderer.lines_at(camera, stage)?, size),
+            None => renderer.draw(camera)?,
         };
-        values.map(line).collect()
+        self.show_in(&mut frame);
+        Ok(frame)
     }
 
     /// How far the surfaces of its frame are drawn.
@@ -106,7 +137,7 @@ impl DebugLayer {
     }
 
     /// The stage of lines that it shows in place of a frame.
-    pub fn lines(self) -> Option<LineStage> {
+    fn lines(self) -> Option<LineStage> {
         match self {
             Self::Found | Self::Sight => Some(LineStage::Found),
             Self::Pieces => Some(LineStage::Seen),
@@ -116,7 +147,7 @@ impl DebugLayer {
     }
 
     /// A frame of `size` pixels that shows lines at a stage, thin and over black. O(pixels + ink).
-    pub fn frame_of(self, drawings: Vec<Drawing>, size: [u32; 2]) -> Frame {
+    fn frame_of(self, drawings: Vec<Drawing>, size: [u32; 2]) -> Frame {
         // Give every line its colour.
         let mut frame = Frame {
             size,
@@ -160,7 +191,7 @@ impl DebugLayer {
 
     /// Puts the layer into the place of a frame's colours, and lets go of its layers; tells where it is empty.
     /// O(pixels).
-    pub fn show_in(self, frame: &mut Frame) {
+    fn show_in(self, frame: &mut Frame) {
         if self.lines().is_none() {
             self.color(frame);
         }

@@ -96,9 +96,6 @@ fn draw(job: &Job<'_>, progress: &mut Progress) -> Result<Drawn<Frame>, Fault> {
         Picture::Whole(frame) => (frame, false),
         Picture::InBands(written) => (written?, true),
     };
-    if let Some(layer) = job.args.debug_layer {
-        layer.show_in(&mut frame);
-    }
     progress.suspend(|| {
         message::warn_all(job.args.drawing.quiet, &frame.notices);
     });
@@ -318,11 +315,9 @@ fn draw_frame(
     let picture = |engine: &dyn Engine| {
         let renderer = prepared.renderer(engine, (&job.look.style, options))?;
         let mut renderer = renderer.with_progress(&tell);
-        if let Some(layer) = job.args.debug_layer
-            && let Some(stage) = layer.lines()
-        {
-            let drawings = renderer.lines_at(camera, stage)?;
-            return Ok(Picture::Whole(layer.frame_of(drawings, options.size)));
+        if let Some(layer) = job.args.debug_layer {
+            let frame = layer.draw(&mut renderer, camera, options.size);
+            return frame.map(Picture::Whole);
         }
         if !renderer.draws_bands() {
             return renderer.draw(camera).map(Picture::Whole);

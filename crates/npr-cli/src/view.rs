@@ -9,6 +9,7 @@ mod save;
 mod why;
 
 use crate::arguments::{Said, ViewArguments};
+use crate::debug_layer::DebugLayer;
 use crate::ending::has_ending;
 use crate::fault::{Exit, Fault};
 use crate::message::quoted;
@@ -17,7 +18,7 @@ use crate::style_source::StyleSource;
 use asks::{Ask, Ends};
 use npr_stylesheet::{DEFAULT_PRESET, Stated};
 use npr_view::{
-    FileKind, Film, Host, News, Order, Pose, Question, Sheet, Studio, Take, shell_line,
+    FileKind, Film, Host, Layer, News, Order, Pose, Question, Sheet, Studio, Take, shell_line,
 };
 use order::{pose_of, render_arguments};
 use painter::Painter;
@@ -185,6 +186,11 @@ impl Host for Desk {
         }
     }
 
+    fn layers(&self) -> Vec<Layer> {
+        let named = |(name, text)| Layer { name, text };
+        DebugLayer::all().map(named).collect()
+    }
+
     fn open(&mut self, path: &str) {
         self.ask(Ask::Open(PathBuf::from(path)));
     }
@@ -241,7 +247,7 @@ impl Host for Desk {
                     Err(fault) => News::Fault(fault.message),
                 });
             }
-            Take::Png | Take::Svg => self.ask(Ask::Save(take, order.clone())),
+            Take::Png | Take::Svg | Take::Json => self.ask(Ask::Save(take, order.clone())),
         }
     }
 

@@ -122,9 +122,14 @@ impl Device {
     #[must_use]
     pub fn timing_passes(self) -> Self {
         Self {
-            times_apart: self.gpu.adapter.is_software() || !self.has_clock(),
+            times_apart: !self.has_true_clock(),
             ..self
         }
+    }
+
+    /// Whether it has a clock that stamps passes when they run.
+    fn has_true_clock(&self) -> bool {
+        self.has_clock() && !self.gpu.adapter.is_software()
     }
 
     /// How often it was given work so far, and waited for.
@@ -160,6 +165,10 @@ impl Device {
 impl Engine for Device {
     fn describe(&self) -> String {
         self.gpu.adapter.to_string()
+    }
+
+    fn tells_passes_apart(&self) -> bool {
+        self.times_apart || self.has_true_clock()
     }
 
     fn prepare(&self, graph: Graph) -> Result<Box<dyn Session>, EngineError> {

@@ -66,6 +66,11 @@ pub trait Engine {
         false
     }
 
+    /// Whether the times of a run are those of each pass. Else passes share one time, or have times that mean little.
+    fn tells_passes_apart(&self) -> bool {
+        true
+    }
+
     /// Makes the resources of a graph, all zero, ready to run as often as wanted.
     ///
     /// # Errors

@@ -4,7 +4,7 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use npr_stylesheet::Stated;
-use npr_view::{FileKind, Film, Host, News, Order, Pose, Question, Sheet, Studio, Take};
+use npr_view::{FileKind, Film, Host, Layer, News, Order, Pose, Question, Sheet, Studio, Take};
 use std::hint::black_box;
 use toml::Value;
 
@@ -18,6 +18,10 @@ impl Host for Idle {
 
     fn kind(&self, _: &str) -> FileKind {
         FileKind::Scene
+    }
+
+    fn layers(&self) -> Vec<Layer> {
+        Vec::new()
     }
 
     fn open(&mut self, _: &str) {}

@@ -22,6 +22,8 @@ pub struct Order {
     pub viewpoint: Option<Viewpoint>,
     /// How the scene stands.
     pub pose: Pose,
+    /// The layer that is shown in place of the picture, by its name; none for the picture.
+    pub layer: Option<String>,
     /// Width and height in pixels.
     pub size: [u32; 2],
     /// Whether it is for the time being, while something changes.
@@ -53,8 +55,19 @@ impl Order {
         let [width, height] = self.size;
         words.extend(["--size".to_owned(), format!("{width}x{height}")]);
         words.extend(self.pose.options());
+        let layer = self.layer.iter();
+        words.extend(layer.map(|name| format!("--debug-layer={name}")));
         words
     }
+}
+
+/// A layer that can be shown in place of a picture.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Layer {
+    /// What [`Order::layer`] and the command call it.
+    pub name: String,
+    /// What it shows.
+    pub text: String,
 }
 
 /// What is at a place of a picture?
@@ -81,8 +94,19 @@ pub struct Picture {
     pub engine: String,
     /// How long that took, in seconds.
     pub seconds: f32,
+    /// How long its passes took, in running order; none where the engine cannot tell them apart.
+    pub passes: Option<Vec<PassSeconds>>,
     /// What was drawn in another way than the style asks.
     pub notices: Vec<String>,
+}
+
+/// How long a pass of a picture took.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PassSeconds {
+    /// The name of the pass.
+    pub name: &'static str,
+    /// Seconds that it took.
+    pub seconds: f32,
 }
 
 /// What a host has to tell.
@@ -116,6 +140,8 @@ pub enum Take {
     Png,
     /// Its lines, as `.svg`.
     Svg,
+    /// Its lines as data, as `.json`.
+    Json,
 }
 
 /// What a file is, by its name.
@@ -142,6 +168,9 @@ pub trait Host {
 
     /// What a file is, by its name.
     fn kind(&self, path: &str) -> FileKind;
+
+    /// The layers that can be shown in place of a picture.
+    fn layers(&self) -> Vec<Layer>;
 
     /// Opens a scene in place of the present one, or a motion that its figure plays; [`News`] tells how that went.
     fn open(&mut self, path: &str);
@@ -224,13 +253,14 @@ mod tests {
                 time_s: Some(0.5),
                 ..Pose::default()
             },
+            layer: Some("found".to_owned()),
             size: [64, 48],
             is_draft: false,
         };
         assert_eq!(
             order.options().join(" "),
             "--style ink --set line.color=#fff --eye=-1.5,0.1,0.0000001 --target=0,0,0 --up=0,1,0 --fov 40 --ortho \
-             --size 64x48 --time=0.5"
+             --size 64x48 --time=0.5 --debug-layer=found"
         );
     }
 }

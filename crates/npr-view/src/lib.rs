@@ -33,7 +33,9 @@ mod why;
 pub mod window;
 
 pub use film::{Film, FilmForm};
-pub use host::{FileKind, Host, News, Order, Picture, Question, Take, shell_line};
+pub use host::{
+    FileKind, Host, Layer, News, Order, PassSeconds, Picture, Question, Take, shell_line,
+};
 pub use pose::{Cast, Clip, Face, LookAt, Pose};
 pub use sheet::Sheet;
 pub use studio::Studio;

@@ -8,8 +8,10 @@ mod filming;
 mod gallery;
 mod guides;
 mod joints;
+mod layers;
 mod split;
 mod timeline;
+mod times;
 mod why;
 
 use egui::{Align, Key, KeyboardShortcut, Layout, Modifiers, RichText, TextureHandle, Ui};
@@ -19,7 +21,7 @@ use npr_stylesheet::StyleError;
 use crate::beside::{Gallery, Split};
 use crate::film::Filming;
 use crate::history::History;
-use crate::host::{FileKind, Host, News, Order, Picture, Take};
+use crate::host::{FileKind, Host, Layer, News, Order, Picture, Take};
 use crate::pace::Pace;
 use crate::panel::{Edit, Panel};
 use crate::pose::Pose;
@@ -27,6 +29,7 @@ use crate::sheet::Sheet;
 use crate::viewpoint::Viewpoint;
 use crate::why::Asked;
 use timeline::Timeline;
+use times::Times;
 
 /// Seconds without a change after which the picture is drawn in full.
 const STILL_S: f64 = 0.2;
@@ -75,6 +78,11 @@ pub struct Studio {
     places_guides: bool,
     /// Files that were dropped, of which it is asked what they are for.
     dropped: Vec<(String, FileKind)>,
+    /// The layer that is shown in place of the picture, and those that there are.
+    layer: Option<String>,
+    layers: Vec<Layer>,
+    /// How long the last pictures took.
+    times: Times,
 }
 
 impl Studio {
@@ -85,6 +93,7 @@ impl Studio {
     /// [`StyleError`] where overrides do not fit the style; its name is looked up by the host.
     pub fn new(sheet: Sheet, size: Option<[u32; 2]>, host: Box<dyn Host>) -> Self {
         Self {
+            layers: host.layers(),
             host,
             split: Split::new(sheet.clone()),
             sheet,
@@ -109,6 +118,8 @@ impl Studio {
             asked: Asked::default(),
             places_guides: false,
             dropped: Vec::new(),
+            layer: None,
+            times: Times::default(),
         }
     }
 
@@ -146,6 +157,7 @@ impl Studio {
             overrides: self.sheet.overrides(),
             viewpoint: self.viewpoint,
             pose: self.pose.said(),
+            layer: self.layer.clone(),
             size: self.size,
             is_draft: false,
         }
@@ -230,6 +242,7 @@ impl Studio {
         if picture.order.is_draft {
             self.pace.learn(picture.seconds);
         }
+        self.times.note(&picture);
         let is_last = self.ordered.as_ref() == Some(&picture.order);
         if is_last {
             self.ordered = None;
@@ -391,6 +404,9 @@ impl Studio {
             if button(ui, "SVG", "the lines of the picture, as a file") {
                 self.save(Take::Svg);
             }
+            if button(ui, "JSON", "the lines as data, as npr lines writes them") {
+                self.save(Take::Json);
+            }
             self.show_films(ui);
             if button(
                 ui,
@@ -418,11 +434,6 @@ impl Studio {
             if response.on_hover_text("Ctrl+Y").clicked() {
                 self.redo(ui);
             }
-            let guides = ui.toggle_value(&mut self.places_guides, "Guides");
-            crate::panel::name_it(&guides, "Guide points");
-            guides.on_hover_text(
-                "a click on the model adds a guide point, where lines thin out; one on its dot takes it away",
-            );
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 for (text, is_open) in [("Fold all", false), ("Unfold all", true)] {
                     if ui.add(small(text)).clicked() {
@@ -431,13 +442,24 @@ impl Studio {
                 }
             });
         });
+        ui.add_space(2.0);
+        ui.horizontal(|ui| {
+            self.show_layers(ui);
+            let guides = ui.toggle_value(&mut self.places_guides, "Guides");
+            crate::panel::name_it(&guides, "Guide points");
+            guides.on_hover_text(
+                "a click on the model adds a guide point, where lines thin out; one on its dot takes it away",
+            );
+        });
         ui.separator();
         let edits = egui::ScrollArea::vertical()
             .auto_shrink([false; 2])
             .show(ui, |ui| {
                 self.show_figure(ui);
                 self.show_volumes(ui);
-                self.panel.show(ui, &self.sheet)
+                let edits = self.panel.show(ui, &self.sheet);
+                self.show_times(ui);
+                edits
             })
             .inner;
         for edit in &edits {

@@ -14,6 +14,8 @@ mod gallery;
 mod joints;
 #[path = "studio/keyboard.rs"]
 mod keyboard;
+#[path = "studio/layers.rs"]
+mod layers;
 #[path = "studio/pointing.rs"]
 mod pointing;
 #[path = "studio/split.rs"]
@@ -22,6 +24,8 @@ mod split;
 mod stops;
 #[path = "studio/timeline.rs"]
 mod timeline;
+#[path = "studio/times.rs"]
+mod times;
 
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, vec2};
@@ -29,7 +33,8 @@ use egui_kittest::kittest::{NodeT, Queryable};
 use egui_kittest::{Harness, HarnessBuilder, TestRenderer};
 use npr_stylesheet::{Field, Form, Stated, fields};
 use npr_view::{
-    FileKind, Film, Host, News, Order, Picture, Pose, Question, Sheet, Studio, Take, Viewpoint,
+    FileKind, Film, Host, Layer, News, Order, PassSeconds, Picture, Pose, Question, Sheet, Studio,
+    Take, Viewpoint,
 };
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -60,6 +65,10 @@ fn painted(order: Order) -> Box<Picture> {
         viewpoint: order.viewpoint.unwrap_or(FRONT),
         engine: "nobody".to_owned(),
         seconds: 0.01,
+        passes: Some(vec![PassSeconds {
+            name: "raster.draw_ids",
+            seconds: 0.004,
+        }]),
         notices: Vec::new(),
         order,
     })
@@ -81,6 +90,14 @@ impl Host for Easel {
             Some("vdb") => FileKind::Volume,
             _ => FileKind::Scene,
         }
+    }
+
+    fn layers(&self) -> Vec<Layer> {
+        let named = |name: &str| Layer {
+            name: name.to_owned(),
+            text: format!("shows {name}"),
+        };
+        ["depth", "found"].map(named).to_vec()
     }
 
     fn open(&mut self, path: &str) {
@@ -397,6 +414,13 @@ fn the_style_is_saved_and_the_command_copied() {
     harness.run_steps(2);
     let told = harness.state().told().unwrap_or_default();
     assert!(told.contains("clipboard"), "{told}");
+
+    // Every other file has a button.
+    for (name, take) in [("PNG", Take::Png), ("SVG", Take::Svg), ("JSON", Take::Json)] {
+        harness.get_by_label(name).click();
+        harness.run_steps(2);
+        assert_eq!(easel.0.borrow().saved.last().unwrap().0, take);
+    }
 }
 
 #[test]

@@ -5,6 +5,7 @@ use crate::arguments::{
     PlacedVolume, Point, PoseArguments, RenderArguments, SheetArguments, Size, Switch,
     ViewArguments,
 };
+use crate::debug_layer::DebugLayer;
 use npr_core::math::{cos_f64, sin_f64};
 use npr_scene::{Bone, Posture};
 use npr_view::{Face, Film, LookAt, Order, Pose};
@@ -25,6 +26,7 @@ pub fn render_arguments(args: &ViewArguments, scene: &Path) -> RenderArguments {
 /// The arguments of `npr render` that draw an order.
 pub fn order_arguments(args: &ViewArguments, scene: &Path, order: &Order) -> RenderArguments {
     let mut args = render_arguments(args, scene);
+    args.debug_layer = layer_of(order);
     let drawing = &mut args.drawing;
     drawing.look.style = Some(order.style.clone());
     drawing.look.overrides.clone_from(&order.overrides);
@@ -48,6 +50,11 @@ pub fn order_arguments(args: &ViewArguments, scene: &Path, order: &Order) -> Ren
         };
     }
     args
+}
+
+/// The layer that an order shows in place of the picture.
+pub fn layer_of(order: &Order) -> Option<DebugLayer> {
+    DebugLayer::named(order.layer.as_deref()?)
 }
 
 /// The arguments of `npr animate` that draw a film into files of a name.

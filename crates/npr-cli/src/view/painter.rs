@@ -2,7 +2,7 @@
 
 use super::actor::{Actor, Handed};
 use super::asks::{Ask, Asks, Ends};
-use super::order::order_arguments;
+use super::order::{layer_of, order_arguments};
 use super::playbill;
 use super::save;
 use super::why;
@@ -23,10 +23,10 @@ use npr_core::camera::{Camera, Projection};
 use npr_core::interrupt::Interrupt;
 use npr_gpu::engine::Engine;
 use npr_gpu::processor::Processor;
-use npr_render::{Frame, Renderer, RendererOptions, Spot};
+use npr_render::{Frame, RenderError, Renderer, RendererOptions, Spot};
 use npr_scene::Material;
 use npr_stylesheet::Style;
-use npr_view::{Film, News, Order, Picture, Question, Take, Viewpoint};
+use npr_view::{Film, News, Order, PassSeconds, Picture, Question, Take, Viewpoint};
 use std::cell::{Cell, RefCell};
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
@@ -357,7 +357,7 @@ impl Painter {
             let asked = (order, &self.asks.ends().picture);
             let (mut found, camera, viewpoint) =
                 self.poised(scene, &path, asked, &mut VecDeque::new())?;
-            let frame = self.drawn(&mut found.renderer, &camera)?;
+            let frame = self.drawn(&mut found.renderer, &camera, order)?;
             let shown =
                 frame.map(|frame| picture((engine, &actor), order, viewpoint, (frame, start)));
             Ok(shown.map(Box::new))
@@ -448,9 +448,10 @@ impl Painter {
     }
 
     /// Whether the strokes of a draft would take too long: those of another view than that of the last full picture
-    /// have to be found.
+    /// have to be found. A layer shows how the style draws, and never another method.
     fn is_rough(&self, order: &Order) -> bool {
-        order.is_draft && !self.is_known(order) && self.strokes_s.get() > STROKES_S
+        let is_free = order.is_draft && order.layer.is_none();
+        is_free && !self.is_known(order) && self.strokes_s.get() > STROKES_S
     }
 
     /// Whether the last full picture shows the scene of an order as its camera does.
@@ -485,6 +486,7 @@ impl Painter {
             is_alike
                 && other.size == order.size
                 && other.is_draft == order.is_draft
+                && other.layer == order.layer
                 && other.style == order.style
                 && other.overrides == order.overrides
         };
@@ -564,9 +566,14 @@ impl Painter {
     }
 
     /// Draws a frame to its end, or none where something else waits to be drawn.
-    fn drawn(&self, renderer: &mut Renderer<'_>, camera: &Camera) -> Result<Option<Frame>, Fault> {
+    fn drawn(
+        &self,
+        renderer: &mut Renderer<'_>,
+        camera: &Camera,
+        order: &Order,
+    ) -> Result<Option<Frame>, Fault> {
         loop {
-            match renderer.draw(camera) {
+            match frame_of(renderer, camera, order) {
                 Ok(frame) => return Ok(Some(frame)),
                 Err(error) if error.is_interrupted() && self.asks.have_picture() => {
                     return Ok(None);
@@ -590,7 +597,7 @@ impl Painter {
         let scene = (engine, (prepared, &mut *actor));
         let (mut found, camera, viewpoint) = self.poised(scene, path, self.asked(order), kept)?;
         let drawn = Instant::now();
-        let Some(frame) = self.drawn(&mut found.renderer, &camera)? else {
+        let Some(frame) = self.drawn(&mut found.renderer, &camera, order)? else {
             keep(kept, found);
             return Ok(());
         };
@@ -631,6 +638,18 @@ fn keep<'a>(kept: &mut VecDeque<Kept<'a>>, found: Kept<'a>) {
     kept.truncate(KEPT);
 }
 
+/// The frame of an order, or the layer that it shows.
+fn frame_of(
+    renderer: &mut Renderer<'_>,
+    camera: &Camera,
+    order: &Order,
+) -> Result<Frame, RenderError> {
+    match layer_of(order) {
+        None => renderer.draw(camera),
+        Some(layer) => layer.draw(renderer, camera, order.size),
+    }
+}
+
 /// A frame of an order as a picture, which was begun at a time.
 fn picture(
     (engine, actor): (&dyn Engine, &Actor),
@@ -639,11 +658,16 @@ fn picture(
     (mut frame, start): (Frame, Instant),
 ) -> Picture {
     frame.notices.extend_from_slice(actor.warnings());
+    let passes = frame.times.iter().map(|pass| PassSeconds {
+        name: pass.name,
+        seconds: pass.time.as_secs_f32(),
+    });
     Picture {
         rgba: frame.rgba,
         viewpoint,
         engine: engine.describe(),
         seconds: start.elapsed().as_secs_f32(),
+        passes: engine.tells_passes_apart().then(|| passes.collect()),
         notices: frame.notices,
         order: order.clone(),
     }
@@ -702,6 +726,45 @@ mod tests {
     use clap::Parser;
     use std::sync::mpsc::channel;
 
+    /// A painter of a scene that nobody hears.
+    fn painter_of(scene: &Path) -> Painter {
+        let words = ["npr", "view", "--backend", "cpu"].map(Into::into);
+        let words = words.into_iter().chain([scene.to_owned().into_os_string()]);
+        let parsed = Arguments::try_parse_from(words).expect("a right line");
+        let Command::View(said) = parsed.command else {
+            panic!("another command");
+        };
+        let ((_, asks), (news, _)) = (channel(), channel());
+        let taken = (PathBuf::from("."), Ends::default());
+        Painter::new(said.0.args, asks, news, Box::new(|| {}), taken)
+    }
+
+    /// A draft in a style, from where the scene is framed.
+    fn draft(style: &str) -> Order {
+        Order {
+            change: 1,
+            style: style.to_owned(),
+            overrides: Vec::new(),
+            viewpoint: None,
+            pose: npr_view::Pose::default(),
+            layer: None,
+            size: [40, 30],
+            is_draft: true,
+        }
+    }
+
+    #[test]
+    fn a_draft_of_a_layer_is_drawn_by_the_method_of_the_style() {
+        let painter = painter_of(Path::new("a.obj"));
+        painter.strokes_s.set(1.0);
+        let picture = draft("ink");
+        let layer = Order {
+            layer: Some("kind".to_owned()),
+            ..picture.clone()
+        };
+        assert!(painter.is_rough(&picture) && !painter.is_rough(&layer));
+    }
+
     #[test]
     fn a_style_is_read_once_for_a_draft() {
         // Lay a painter before a triangle, with a style in a file.
@@ -713,24 +776,8 @@ mod tests {
         };
         write(&scene, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
         write(&file, "extends = \"ink\"\n");
-        let words = ["npr", "view", "--backend", "cpu"].map(Into::into);
-        let words = words.into_iter().chain([scene.clone().into_os_string()]);
-        let parsed = Arguments::try_parse_from(words).expect("a right line");
-        let Command::View(said) = parsed.command else {
-            panic!("another command");
-        };
-        let ((_, asks), (news, _)) = (channel(), channel());
-        let taken = (folder.path().to_owned(), Ends::default());
-        let painter = Painter::new(said.0.args, asks, news, Box::new(|| {}), taken);
-        let order = Order {
-            change: 1,
-            style: file.to_string_lossy().into_owned(),
-            overrides: Vec::new(),
-            viewpoint: None,
-            pose: npr_view::Pose::default(),
-            size: [40, 30],
-            is_draft: true,
-        };
+        let painter = painter_of(&scene);
+        let order = draft(&file.to_string_lossy());
         let args = order_arguments(&painter.args, &scene, &order);
         let job = painter.job(&args).expect("a style");
         let limits = painter.args.drawing.limits.limits();

@@ -77,25 +77,30 @@ pub fn picture(
     (folder, scene): (&Path, &Path),
     (take, order): (Take, &Order),
 ) -> Result<PathBuf, Fault> {
-    let ending = if take == Take::Svg { ".svg" } else { ".png" };
-    let path = free_path(folder, scene, ending)?;
+    let format = match take {
+        Take::Svg => Some(LineFormat::Svg),
+        Take::Json => Some(LineFormat::Json),
+        Take::Style | Take::Png => None,
+    };
+    let ending = format.map_or("png", LineFormat::ending);
+    let path = free_path(folder, scene, &format!(".{ending}"))?;
     let mut args = order_arguments(args, scene, order);
     args.output = Some(path.clone());
-    if take == Take::Png {
+    let Some(format) = format else {
         render::render(&args)?;
         return Ok(path);
-    }
+    };
 
-    // Lines of a style that fills surfaces are drawn alone.
+    // Lines of a style that fills surfaces are drawn alone, and data are lines alone.
     let look = Look::resolve(&args.drawing.look, args.drawing.allow_external.as_deref())?;
-    if look.paper_of_lines().is_some() {
+    if format == LineFormat::Svg && look.paper_of_lines().is_some() {
         lines::lines_of_picture(&args)?;
         return Ok(path);
     }
     lines::lines(&LinesArguments {
         scene: args.scene.clone(),
         output: args.output.clone(),
-        format: Some(LineFormat::Svg),
+        format: Some(format),
         lines: LineArguments::default(),
         sheet: SheetArguments::default(),
         drawing: args.drawing.clone(),

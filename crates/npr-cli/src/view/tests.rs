@@ -15,7 +15,9 @@ mod dropped;
 mod endurance;
 mod films;
 mod hand;
+mod layers;
 mod moments;
+mod takes;
 
 /// A box on a plate.
 const OBJ: &str = "o Box\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n\
@@ -113,6 +115,7 @@ fn order(overrides: &[&str], viewpoint: Option<Viewpoint>) -> Order {
         overrides: overrides.iter().map(|text| (*text).to_owned()).collect(),
         viewpoint,
         pose: Pose::default(),
+        layer: None,
         size: [120, 90],
         is_draft: false,
     }

@@ -121,7 +121,9 @@ fn passes_that_are_timed_one_by_one_are_done_when_they_are_submitted() {
     if !device.adapter().is_software() {
         return;
     }
+    assert!(!device.tells_passes_apart());
     let device = device.timing_passes();
+    assert!(device.tells_passes_apart());
     let sums = Sums::new();
     let mut session = device.prepare(sums.graph.clone()).unwrap();
     for (value, runs) in [(1, 1), (7, 2)] {

@@ -33,6 +33,7 @@ impl Studio {
         let order = self.order();
         Order {
             pose: film.pose(&order.pose),
+            layer: None,
             ..order
         }
     }

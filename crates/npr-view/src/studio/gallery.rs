@@ -43,7 +43,7 @@ impl Studio {
         })
     }
 
-    /// The order of a picture in the list, of the present view: a draft, so that its strokes are those of the full
+    /// The order of a picture in the list, of the present view, whatever layer is shown: a draft, so that its strokes are those of the full
     /// picture, made smaller.
     fn small_order(&self) -> Order {
         let order = self.order();
@@ -51,6 +51,7 @@ impl Studio {
         let scale = (SIDE / width.max(height)).min(1.0);
         Order {
             change: 0,
+            layer: None,
             size: [width, height].map(|side| ((side * scale).round() as u32).max(1)),
             is_draft: true,
             ..order
