@@ -4,8 +4,10 @@
 //! on where ends face each other, where they run past each other side by side, and around a corner that nothing else
 //! leaves. After a frame of a film what it joined stays joined, and what it left apart stays apart, by a margin.
 
+mod continued;
 mod limits;
 
+pub(crate) use continued::continued_ends;
 pub use limits::{DEPTH_SHARE, STRAIGHT_COS};
 
 use crate::mesh_lines::corner::start_at_head;
@@ -72,9 +74,16 @@ pub(crate) fn merge_held(
 /// The end that each end is joined with, or [`usize::MAX`]: of all pairs the cheapest first.
 fn mates(meetings: &Meetings<'_>) -> Vec<usize> {
     let cost = |[a, b]: &[usize; 2]| Some((meetings.cost([*a, *b])?, *a, *b));
-    let mut fits: Vec<(f64, usize, usize)> = meetings.pairs.iter().filter_map(cost).collect();
+    paired(
+        meetings.pairs.iter().filter_map(cost).collect(),
+        meetings.ends.len(),
+    )
+}
+
+/// The partner of each of `count` ends, or [`usize::MAX`]: of pairs with their costs the cheapest first, each end once.
+fn paired(mut fits: Vec<(f64, usize, usize)>, count: usize) -> Vec<usize> {
     fits.sort_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
-    let mut mates = vec![usize::MAX; meetings.ends.len()];
+    let mut mates = vec![usize::MAX; count];
     for (_, a, b) in fits {
         if mates[a] == usize::MAX && mates[b] == usize::MAX {
             mates[a] = b;

@@ -2,6 +2,7 @@
 
 use crate::mesh_lines::run::distance;
 use crate::stroke::{Stroke, StrokePoint};
+use rayon::prelude::*;
 
 /// Pixels along a stroke to either side over which its paint is averaged: normals of scans jump from face to face, so
 /// that light would change a line every few pixels, and no pen does.
@@ -72,13 +73,85 @@ fn walk(stroke: &Stroke, (from, step): (usize, usize), reach: f64, mean: &mut Me
     first
 }
 
+/// Limits how fast widths change along the strokes that `is_limited`, as [`limit_slope`] does, and across the ends where
+/// one goes on as another: there a pen does not jump either. `mates` holds for each end the one that goes on, or
+/// [`usize::MAX`]; end `2 s` is the first point of stroke `s`, `2 s + 1` its last. O(points).
+pub(super) fn limit_slopes(
+    strokes: &mut [Stroke],
+    mates: &[usize],
+    is_limited: impl Fn(usize) -> bool + Sync,
+) {
+    // Follow every line from one of its ends, and rings from anywhere.
+    let goes_on = |end: usize| {
+        let mate = mates[end];
+        let is_limited = mate != usize::MAX && is_limited(end / 2) && is_limited(mate / 2);
+        is_limited.then_some(mate)
+    };
+    let mut chains: Vec<Vec<usize>> = Vec::new();
+    let mut used = vec![false; strokes.len()];
+    let open = (0..mates.len()).filter(|end| goes_on(*end).is_none());
+    for start in open.chain((0..strokes.len()).map(|stroke| 2 * stroke)) {
+        let mut chain = Vec::new();
+        let mut entry = Some(start);
+        while let Some(end) = entry.filter(|end| !used[end / 2]) {
+            used[end / 2] = true;
+            chain.push(end);
+            entry = goes_on(end ^ 1);
+        }
+        if chain.first().is_some_and(|end| is_limited(end / 2)) {
+            chains.push(chain);
+        }
+    }
+
+    // Limit those of several strokes as one stroke.
+    let (several, alone): (Vec<_>, Vec<_>) = chains.into_iter().partition(|chain| chain.len() > 1);
+    let widths = |chain: &Vec<usize>| {
+        let along = |end: &usize| {
+            let points = strokes[end / 2].points.iter().copied();
+            match end % 2 {
+                0 => points.collect::<Vec<_>>(),
+                _ => points.rev().collect(),
+            }
+        };
+        let last = chain.last().map(|end| end ^ 1);
+        let mut whole = Stroke {
+            points: chain.iter().flat_map(along).collect(),
+            closed: last.is_some_and(|last| mates[last] == chain[0]),
+            ..strokes[chain[0] / 2].clone()
+        };
+        limit_slope(&mut whole);
+        whole.points
+    };
+    let limited: Vec<Vec<StrokePoint>> = several.par_iter().map(widths).collect();
+    for (chain, points) in several.iter().zip(limited) {
+        let mut points = points.iter();
+        for end in chain {
+            let own = strokes[end / 2].points.iter_mut();
+            let take =
+                |(own, of_whole): (&mut StrokePoint, &StrokePoint)| own.width = of_whole.width;
+            match end % 2 {
+                0 => own.zip(points.by_ref()).for_each(take),
+                _ => own.rev().zip(points.by_ref()).for_each(take),
+            }
+        }
+    }
+
+    // Limit the others each for itself.
+    let mut is_alone = vec![false; strokes.len()];
+    alone.iter().for_each(|chain| is_alone[chain[0] / 2] = true);
+    let alone = strokes.par_iter_mut().zip(&is_alone);
+    alone
+        .filter(|(_, is_alone)| **is_alone)
+        .for_each(|(stroke, _)| limit_slope(stroke));
+}
+
 /// Lets widths that follow the surface change along a stroke no faster than a pen does: at hard edges and small facets
 /// the surface bends at once, and there they would jump.
 ///
 /// Each point gets the mean of the widest width that lies nowhere above the stroke's and of the narrowest that lies
 /// nowhere below it, of those that change by [`WIDTH_SLOPE`] at most. So what changes slower stays as it is, and a jump
 /// becomes a slope to both of its sides. O(points).
-pub(super) fn limit_slope(stroke: &mut Stroke) {
+fn limit_slope(stroke: &mut Stroke) {
     let points = &stroke.points;
     let steeper = |from: &StrokePoint, to: &StrokePoint| {
         (to.width - from.width).abs() > WIDTH_SLOPE * distance(from.position, to.position)
@@ -306,6 +379,81 @@ mod tests {
                 prop_assert!((a.width - b.width).abs() < 1e-9);
             }
             prop_assert_eq!(stroke.points.len(), before.points.len());
+        }
+
+        /// Whether it is one stroke or several that go on as each other, however they run and whatever their order.
+        #[test]
+        fn a_line_in_pieces_has_the_widths_of_the_whole(
+            seed in any::<u64>(), closed in any::<bool>(), count in 12_usize..80, cuts in 1_usize..6,
+        ) {
+            // Limit the whole.
+            let mut random = npr_mesh::testing::Random::new(seed);
+            let widths: Vec<f64> = (0..count).map(|_| f64::from(random.unit()) * 6.0).collect();
+            let mut whole = painted(closed, count, |i| (BLACK, widths[i]));
+            let given = whole.clone();
+            limit_slope(&mut whole);
+
+            // Cut it: pieces share the points between them.
+            let mut at: Vec<usize> = (0..cuts).map(|_| 1 + random.below(count - 2)).collect();
+            at.sort_unstable();
+            at.dedup();
+            let bounds: Vec<usize> = match closed {
+                true => at.iter().copied().chain([at[0] + count]).collect(),
+                false => [0].into_iter().chain(at.iter().copied()).chain([count - 1]).collect(),
+            };
+            let pieces: Vec<Vec<usize>> = bounds
+                .windows(2)
+                .map(|pair| (pair[0]..=pair[1]).map(|i| i % count).collect())
+                .collect();
+
+            // Shuffle them, and turn some round.
+            let mut order: Vec<usize> = (0..pieces.len()).collect();
+            for i in (1..order.len()).rev() {
+                order.swap(i, random.below(i + 1));
+            }
+            let turned: Vec<bool> = order.iter().map(|_| random.below(2) == 1).collect();
+            let points_of = |number: usize| -> Vec<usize> {
+                let points = pieces[order[number]].iter().copied();
+                if turned[number] { points.rev().collect() } else { points.collect() }
+            };
+            let mut strokes: Vec<Stroke> = (0..order.len())
+                .map(|number| Stroke {
+                    closed: false,
+                    points: points_of(number).into_iter().map(|i| given.points[i]).collect(),
+                    ..given.clone()
+                })
+                .collect();
+
+            // Tell which end goes on as which.
+            let place = |piece: usize| order.iter().position(|other| *other == piece).unwrap();
+            let end = |piece: usize, is_last: bool| 2 * place(piece) + usize::from(is_last != turned[place(piece)]);
+            let mut mates = vec![usize::MAX; 2 * pieces.len()];
+            let seams = if closed { pieces.len() } else { pieces.len() - 1 };
+            if pieces.len() > 1 {
+                for piece in 0..seams {
+                    let [a, b] = [end(piece, true), end((piece + 1) % pieces.len(), false)];
+                    (mates[a], mates[b]) = (b, a);
+                }
+                limit_slopes(&mut strokes, &mates, |_| true);
+                for (number, stroke) in strokes.iter().enumerate() {
+                    for (point, i) in stroke.points.iter().zip(points_of(number)) {
+                        let wanted = whole.points[i].width;
+                        prop_assert!((point.width - wanted).abs() < 1e-9, "{} for {wanted}", point.width);
+                    }
+                }
+            }
+        }
+
+        #[test]
+        fn blades_keep_their_widths_and_end_a_line(seed in any::<u64>(), count in 3_usize..40) {
+            let mut random = npr_mesh::testing::Random::new(seed);
+            let widths: Vec<f64> = (0..count).map(|_| f64::from(random.unit()) * 6.0).collect();
+            let one = painted(false, count, |i| (BLACK, widths[i]));
+            let mut alone = one.clone();
+            limit_slope(&mut alone);
+            let mut both = [one.clone(), one.clone()];
+            limit_slopes(&mut both, &[usize::MAX, 2, 1, usize::MAX], |stroke| stroke == 0);
+            prop_assert_eq!(both, [alone, one]);
         }
 
         #[test]

@@ -1,6 +1,7 @@
 //! Turns runs into strokes, with colours and widths along them.
 
-use super::even_paint::{even_out, limit_slope};
+use super::even_paint::{even_out, limit_slopes};
+use crate::mesh_lines::merge::continued_ends;
 use crate::mesh_lines::run::{Run, RunPoint, distance};
 use crate::mesh_lines::smooth::between;
 use crate::project::Lens;
@@ -91,14 +92,12 @@ pub(super) fn painted(
         runs = broken_up(runs, PAINT_STEP_PX, lens);
     }
     let is_of_card: Vec<bool> = runs.iter().map(|run| is_of_card(shape, run)).collect();
+    let mates = look.follows_bends.then(|| continued_ends(&runs));
     let mut strokes = strokes_of(runs, &|run: &Run, point: &RunPoint| {
         look.paint(shape, run, point)
     });
-    if look.follows_bends {
-        let of_surfaces = strokes.par_iter_mut().zip(&is_of_card);
-        of_surfaces
-            .filter(|(_, is_of_card)| !**is_of_card)
-            .for_each(|(stroke, _)| limit_slope(stroke));
+    if let Some(mates) = &mates {
+        limit_slopes(&mut strokes, mates, |index| !is_of_card[index]);
     }
     let mut is_of_card = is_of_card.into_iter();
     strokes.retain(|stroke| !(is_of_card.next() == Some(true) && is_blot(stroke)));
