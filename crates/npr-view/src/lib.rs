@@ -26,6 +26,7 @@ mod panel;
 mod pose;
 mod sheet;
 mod studio;
+mod times;
 mod value;
 mod viewpoint;
 mod why;
@@ -33,7 +34,9 @@ mod why;
 pub mod window;
 
 pub use film::{Film, FilmForm};
-pub use host::{Host, Layer, News, Order, PassSeconds, Picture, Question, Take, shell_line};
+pub use host::{
+    Host, Layer, News, Order, PassSeconds, Picture, Question, Swatch, Take, shell_line,
+};
 pub use pose::{Cast, Clip, Face, LookAt, Pose};
 pub use sheet::Sheet;
 pub use studio::Studio;

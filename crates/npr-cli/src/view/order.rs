@@ -3,6 +3,7 @@
 use crate::arguments::{
     AnimateArguments, CameraArguments, ExpressionShare, FilmArguments, LineArguments, LookedAt,
     Point, PoseArguments, RenderArguments, SheetArguments, Size, Switch, ViewArguments,
+    VolumeArguments,
 };
 use crate::debug_layer::DebugLayer;
 use npr_core::math::{cos_f64, sin_f64};
@@ -35,6 +36,9 @@ pub fn order_arguments(args: &ViewArguments, scene: &Path, order: &Order) -> Ren
     drawing.size = Size { width, height };
     drawing.pose = pose_arguments(&order.pose);
     drawing.quiet = true;
+    if order.swatch.is_some() {
+        drawing.volumes = VolumeArguments::default();
+    }
     drawing.timings = None;
     if let Some(point) = &order.viewpoint {
         drawing.camera = CameraArguments {
