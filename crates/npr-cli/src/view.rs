@@ -6,6 +6,7 @@ mod order;
 mod painter;
 mod playbill;
 mod save;
+mod swatch;
 mod why;
 
 use crate::arguments::{Said, ViewArguments};

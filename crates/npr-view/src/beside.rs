@@ -2,7 +2,9 @@
 
 use egui::TextureHandle;
 
-use crate::host::Order;
+use toml::Value;
+
+use crate::host::{Order, Swatch};
 use crate::sheet::Sheet;
 
 /// A picture of the style that the studio began with, left of a handle.
@@ -55,5 +57,66 @@ impl Gallery {
     pub fn picture(&self, name: &str) -> Option<&Option<TextureHandle>> {
         let mut all = self.pictures.iter();
         all.find_map(|(other, picture)| (other == name).then_some(picture))
+    }
+}
+
+/// Samples of brushes and hatchings, drawn while they are in sight.
+pub(crate) struct Swatches {
+    /// Those that the panel shows.
+    pub in_sight: Vec<Swatch>,
+    /// Pixels to a point.
+    pub scale: f32,
+    drawn: Vec<Drawn>,
+}
+
+/// A sample that was drawn.
+struct Drawn {
+    swatch: Swatch,
+    /// The values that it shows, and its size in pixels.
+    values: Vec<Option<Value>>,
+    size: [u32; 2],
+    /// Its picture; none for one that could not be drawn.
+    picture: Option<TextureHandle>,
+}
+
+impl Default for Swatches {
+    fn default() -> Self {
+        Self {
+            in_sight: Vec::new(),
+            scale: 1.0,
+            drawn: Vec::new(),
+        }
+    }
+}
+
+impl Swatches {
+    /// The last picture of a sample, which stays while another is drawn.
+    pub fn picture(&self, swatch: Swatch) -> Option<&TextureHandle> {
+        let mut all = self.drawn.iter();
+        all.find(|drawn| drawn.swatch == swatch)?.picture.as_ref()
+    }
+
+    /// Whether a sample of these values and this size was drawn.
+    pub fn shows(&self, swatch: Swatch, values: &[Option<Value>], size: [u32; 2]) -> bool {
+        let is_it =
+            |drawn: &Drawn| drawn.swatch == swatch && drawn.size == size && drawn.values == values;
+        self.drawn.iter().any(is_it)
+    }
+
+    /// Takes a sample in place of the one before.
+    pub fn put(
+        &mut self,
+        swatch: Swatch,
+        values: Vec<Option<Value>>,
+        size: [u32; 2],
+        picture: Option<TextureHandle>,
+    ) {
+        self.drawn.retain(|drawn| drawn.swatch != swatch);
+        self.drawn.push(Drawn {
+            swatch,
+            values,
+            size,
+            picture,
+        });
     }
 }

@@ -24,6 +24,8 @@ pub struct Order {
     pub pose: Pose,
     /// The layer that is shown in place of the picture, by its name; none for the picture.
     pub layer: Option<String>,
+    /// The sample that is drawn in place of the scene; none for the scene.
+    pub swatch: Option<Swatch>,
     /// Width and height in pixels.
     pub size: [u32; 2],
     /// Whether it is for the time being, while something changes.
@@ -59,6 +61,16 @@ impl Order {
         words.extend(layer.map(|name| format!("--debug-layer={name}")));
         words
     }
+}
+
+/// A sample of what a style draws with, seen from the front and as wide as its picture, in whose middle it lies. What
+/// lengths of the style go by, it takes from the picture's height.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Swatch {
+    /// A stroke with both its ends.
+    Brush,
+    /// Hatching from the dark at the left to the light at the right.
+    Hatch,
 }
 
 /// A layer that can be shown in place of a picture.
@@ -254,6 +266,7 @@ mod tests {
                 ..Pose::default()
             },
             layer: Some("found".to_owned()),
+            swatch: None,
             size: [64, 48],
             is_draft: false,
         };

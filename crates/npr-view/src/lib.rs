@@ -26,6 +26,7 @@ mod panel;
 mod pose;
 mod sheet;
 mod studio;
+mod times;
 mod value;
 mod viewpoint;
 mod why;
@@ -34,7 +35,7 @@ pub mod window;
 
 pub use film::{Film, FilmForm};
 pub use host::{
-    FileKind, Host, Layer, News, Order, PassSeconds, Picture, Question, Take, shell_line,
+    FileKind, Host, Layer, News, Order, PassSeconds, Picture, Question, Swatch, Take, shell_line,
 };
 pub use pose::{Cast, Clip, Face, LookAt, Pose};
 pub use sheet::Sheet;

@@ -4,16 +4,21 @@ mod controls;
 mod curve;
 mod naming;
 mod ramp;
+mod samples;
 mod stops;
+
+use std::cell::RefCell;
 
 use egui::collapsing_header::CollapsingState;
 use egui::{Id, RichText, Ui};
 use npr_stylesheet::{Field, Form, fields};
 use toml::Value;
 
+use crate::beside::Swatches;
 use crate::sheet::Sheet;
 use controls::{UNFOLDED, control};
 pub(crate) use naming::{arrows, name_it, stepped};
+pub(crate) use samples::{SAMPLE_WIDTH, sampled};
 
 /// Width of the names of keys, in points.
 const NAME_WIDTH: f32 = 118.0;
@@ -52,6 +57,8 @@ struct Place<'a> {
     unfolded: (bool, u32),
     /// Whether a key differs from the base.
     is_changed: &'a dyn Fn(&str) -> bool,
+    /// Shows the sample of a table, where it has one.
+    show_sample: &'a dyn Fn(&mut Ui, &str),
 }
 
 impl Default for Panel {
@@ -70,13 +77,16 @@ impl Panel {
         self.unfolded = (is_open, self.unfolded.1 + 1);
     }
 
-    /// Shows the controls of a style, and gives what the user changed.
-    pub fn show(&mut self, ui: &mut Ui, sheet: &Sheet) -> Vec<Edit> {
+    /// Shows the controls of a style with samples beside some, and gives what the user changed.
+    pub fn show(&mut self, ui: &mut Ui, sheet: &Sheet, samples: &mut Swatches) -> Vec<Edit> {
+        samples.in_sight.clear();
+        let seen = RefCell::new(samples);
         let search = self.search.to_lowercase();
         let place = Place {
             words: search.split_whitespace().map(str::to_owned).collect(),
             unfolded: self.unfolded,
             is_changed: &|key| sheet.is_changed(key),
+            show_sample: &|ui, table| samples::show(ui, table, &mut seen.borrow_mut()),
         };
         ui.data_mut(|data| data.insert_temp(Id::unique(UNFOLDED), self.unfolded));
         let mut edits = Vec::new();
@@ -138,6 +148,7 @@ impl Place<'_> {
             },
             unfolded: (is_hit || self.unfolded.0, self.unfolded.1),
             is_changed: self.is_changed,
+            show_sample: self.show_sample,
         }
     }
 }
@@ -178,6 +189,7 @@ fn row(
                 return;
             }
         }
+        (place.show_sample)(ui, key);
         for field in inner {
             let key = format!("{key}.{}", field.name);
             row(ui, &below, field, &key, value, edits);

@@ -129,6 +129,8 @@ pub struct Cast {
     pub can_look: bool,
     /// The file of the motion, where one is played.
     pub motion: Option<String>,
+    /// Whether it has lights of its own.
+    pub has_lights: bool,
     /// Whether pictures are seen by a camera of the file, which clips may move.
     pub has_own_camera: bool,
 }

@@ -9,7 +9,9 @@ mod gallery;
 mod guides;
 mod joints;
 mod layers;
+mod lights;
 mod split;
+mod swatches;
 mod timeline;
 mod times;
 mod why;
@@ -18,7 +20,7 @@ use egui::{Align, Key, KeyboardShortcut, Layout, Modifiers, RichText, TextureHan
 use npr_core::standard_view::StandardView;
 use npr_stylesheet::StyleError;
 
-use crate::beside::{Gallery, Split};
+use crate::beside::{Gallery, Split, Swatches};
 use crate::film::Filming;
 use crate::history::History;
 use crate::host::{FileKind, Host, Layer, News, Order, Picture, Take};
@@ -26,10 +28,10 @@ use crate::pace::Pace;
 use crate::panel::{Edit, Panel};
 use crate::pose::Pose;
 use crate::sheet::Sheet;
+use crate::times::Times;
 use crate::viewpoint::Viewpoint;
 use crate::why::Asked;
 use timeline::Timeline;
-use times::Times;
 
 /// Seconds without a change after which the picture is drawn in full.
 const STILL_S: f64 = 0.2;
@@ -65,6 +67,8 @@ pub struct Studio {
     split: Split,
     /// Pictures of the presets.
     gallery: Gallery,
+    /// Samples of brush and hatching.
+    swatches: Swatches,
     /// The bones of a pose that were saved last, and their file.
     saved_pose: Option<(Pose, String)>,
     /// Width and height that a full picture has now, in pixels.
@@ -78,6 +82,8 @@ pub struct Studio {
     places_guides: bool,
     /// Files that were dropped, of which it is asked what they are for.
     dropped: Vec<(String, FileKind)>,
+    /// Whether handles over the picture turn lights.
+    moves_lights: bool,
     /// The layer that is shown in place of the picture, and those that there are.
     layer: Option<String>,
     layers: Vec<Layer>,
@@ -111,6 +117,7 @@ impl Studio {
             ordered: None,
             aside: None,
             gallery: Gallery::default(),
+            swatches: Swatches::default(),
             saved_pose: None,
             size: size.unwrap_or([1, 1]),
             shown: None,
@@ -118,6 +125,7 @@ impl Studio {
             asked: Asked::default(),
             places_guides: false,
             dropped: Vec::new(),
+            moves_lights: false,
             layer: None,
             times: Times::default(),
         }
@@ -158,6 +166,7 @@ impl Studio {
             viewpoint: self.viewpoint,
             pose: self.pose.said(),
             layer: self.layer.clone(),
+            swatch: None,
             size: self.size,
             is_draft: false,
         }
@@ -374,6 +383,9 @@ impl Studio {
         if pressed(Modifiers::NONE, Key::B) {
             self.split.is_on = !self.split.is_on;
         }
+        if pressed(Modifiers::NONE, Key::L) {
+            self.toggle_lights();
+        }
         if pressed(Modifiers::NONE, Key::Home) {
             self.viewpoint = None;
             self.changed(ui);
@@ -450,6 +462,11 @@ impl Studio {
             guides.on_hover_text(
                 "a click on the model adds a guide point, where lines thin out; one on its dot takes it away",
             );
+            let lights = ui.selectable_label(self.moves_lights, "Lights");
+            let hint = "L: handles over the picture, which turn the lights of the style";
+            if lights.on_hover_text(hint).clicked() {
+                self.toggle_lights();
+            }
         });
         ui.separator();
         let edits = egui::ScrollArea::vertical()
@@ -457,7 +474,7 @@ impl Studio {
             .show(ui, |ui| {
                 self.show_figure(ui);
                 self.show_volumes(ui);
-                let edits = self.panel.show(ui, &self.sheet);
+                let edits = self.panel.show(ui, &self.sheet, &mut self.swatches);
                 self.show_times(ui);
                 edits
             })

@@ -16,8 +16,12 @@ mod joints;
 mod keyboard;
 #[path = "studio/layers.rs"]
 mod layers;
+#[path = "studio/lights.rs"]
+mod lights;
 #[path = "studio/pointing.rs"]
 mod pointing;
+#[path = "studio/samples.rs"]
+mod samples;
 #[path = "studio/split.rs"]
 mod split;
 #[path = "studio/stops.rs"]

@@ -3,7 +3,7 @@
 use crate::arguments::{
     AnimateArguments, CameraArguments, ExpressionShare, FilmArguments, LineArguments, LookedAt,
     PlacedVolume, Point, PoseArguments, RenderArguments, SheetArguments, Size, Switch,
-    ViewArguments,
+    ViewArguments, VolumeArguments,
 };
 use crate::debug_layer::DebugLayer;
 use npr_core::math::{cos_f64, sin_f64};
@@ -38,6 +38,9 @@ pub fn order_arguments(args: &ViewArguments, scene: &Path, order: &Order) -> Ren
     let volumes = order.pose.volumes.iter().map(|text| placed(text));
     drawing.volumes.volumes.splice(..0, volumes);
     drawing.quiet = true;
+    if order.swatch.is_some() {
+        drawing.volumes = VolumeArguments::default();
+    }
     drawing.timings = None;
     if let Some(point) = &order.viewpoint {
         drawing.camera = CameraArguments {

@@ -37,6 +37,7 @@ pub fn cast_of(scene: &Scene, motion: Option<&Path>, has_own_camera: bool) -> Ca
             .collect(),
         can_look: scene.figure.as_ref().is_some_and(Figure::can_look),
         motion: motion.map(|path| path.to_string_lossy().into_owned()),
+        has_lights: !scene.lights.is_empty(),
         has_own_camera,
     }
 }

@@ -116,6 +116,7 @@ fn order(overrides: &[&str], viewpoint: Option<Viewpoint>) -> Order {
         viewpoint,
         pose: Pose::default(),
         layer: None,
+        swatch: None,
         size: [120, 90],
         is_draft: false,
     }

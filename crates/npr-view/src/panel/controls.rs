@@ -368,6 +368,7 @@ fn entry_table(ui: &mut Ui, fields: &[Field], key: &str, now: &Value) -> Option<
         words: Vec::new(),
         unfolded,
         is_changed: &|_| false,
+        show_sample: &|_, _| (),
     };
     let start = key.len() + 1;
     let value = |below: &str| at(now, &below[start..]).cloned();

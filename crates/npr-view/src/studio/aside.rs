@@ -11,7 +11,9 @@ impl Studio {
         if self.aside.is_some() {
             return;
         }
-        let missing = self.missing_first().or_else(|| self.missing_preset());
+        let missing = self.missing_first();
+        let missing = missing.or_else(|| self.missing_swatch());
+        let missing = missing.or_else(|| self.missing_preset());
         if let Some(order) = missing {
             self.aside = Some(order.clone());
             self.host.draw_aside(order);
@@ -30,12 +32,16 @@ impl Studio {
         match drawn {
             Ok(picture) => {
                 let texture = canvas::texture(ui.ctx(), &picture);
-                if !self.take_first(order, &texture) {
+                let is_taken = self.take_swatch(order, Some(texture.clone()))
+                    || self.take_first(order, &texture);
+                if !is_taken {
                     self.take_preset(order, Some(texture));
                 }
                 self.aside = free;
             }
-            Err(_) if self.take_preset(order, None) => self.aside = free,
+            Err(_) if self.take_swatch(order, None) || self.take_preset(order, None) => {
+                self.aside = free;
+            }
             Err(text) => {
                 // It is asked for no more, until something else is drawn.
                 self.aside = free.or_else(|| is_last.then(|| order.clone()));

@@ -78,6 +78,7 @@ impl Studio {
             }
         }
         self.show_handle(ui, place, first.is_some());
+        self.show_lights(ui, place);
 
         // Say why a line is there that is clicked, or place guide points.
         if let Some(pointer) = response

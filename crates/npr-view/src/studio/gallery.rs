@@ -43,8 +43,8 @@ impl Studio {
         })
     }
 
-    /// The order of a picture in the list, of the present view, whatever layer is shown: a draft, so that its strokes are those of the full
-    /// picture, made smaller.
+    /// The order of a picture in the list, of the present view, whatever layer is shown: a draft, so that its strokes
+    /// are those of the full picture, made smaller.
     fn small_order(&self) -> Order {
         let order = self.order();
         let [width, height] = order.size.map(|side| side as f32);

@@ -4,7 +4,7 @@ use super::{Studio, studio};
 use egui::Key;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
-use npr_view::News;
+use npr_view::{News, PassSeconds};
 
 /// The names of what the section shows that begin with some words.
 fn shown(harness: &Harness<'static, Studio>, start: &str) -> usize {
@@ -57,4 +57,26 @@ fn an_engine_without_time_stamps_says_so() {
     assert_eq!(shown(&harness, "time stamps"), 1);
     assert_eq!(shown(&harness, "raster.draw_ids"), 0);
     assert_eq!(shown(&harness, "10.0 / 0.0 ms"), 1);
+}
+
+#[test]
+fn the_panel_keeps_its_width_however_long_pictures_take() {
+    let (mut harness, easel) = studio([1000.0, 900.0], &[]);
+    harness.run_steps(20);
+    let size = harness.state().order().size;
+    for is_draft in [true, false] {
+        let mut picture = harness.state().picture().unwrap().clone();
+        picture.order.is_draft = is_draft;
+        picture.seconds = 12_345.6;
+        picture.passes = Some(vec![PassSeconds {
+            name: "vector.a_pass_with_a_name_as_long_as_none_has_ever_been",
+            seconds: 9_876.5,
+        }]);
+        let news = News::Picture(Box::new(picture));
+        easel.0.borrow_mut().news.push(news);
+    }
+    harness.state_mut().search("times passes");
+    harness.run_steps(20);
+    assert_eq!(shown(&harness, "9876500 / 9876500 ms"), 1);
+    assert_eq!(harness.state().order().size, size);
 }

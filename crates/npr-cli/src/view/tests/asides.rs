@@ -1,6 +1,7 @@
 //! Pictures beside the present one are what the command draws, and leave it as it is.
 
 use super::*;
+use npr_view::Swatch;
 
 /// What the host tells of a picture beside the present one.
 fn beside(shop: &mut Shop, order: &Order) -> Result<Picture, String> {
@@ -95,6 +96,69 @@ fn a_small_picture_of_a_preset_has_the_strokes_of_the_large_one() {
     };
     let small = ink_of(&beside(&mut shop, &small).expect("a picture"));
     assert!((small / large - 1.0).abs() < 0.15, "{small} of {large}");
+}
+
+/// How dark a column of the middle rows of a sample is, 0..1.
+fn darkness(picture: &Picture, column: u32) -> f64 {
+    let [width, height] = picture.order.size;
+    let rows = height / 2 - 20..height / 2 + 20;
+    let light = rows.map(|row| f64::from(picture.rgba[((row * width + column) * 4 + 1) as usize]));
+    1.0 - light.sum::<f64>() / (40.0 * 255.0)
+}
+
+/// The sample of an order, of which the scene is no part.
+fn sample(shop: &mut Shop, swatch: Swatch, overrides: &[&str]) -> Picture {
+    let order = Order {
+        swatch: Some(swatch),
+        size: [236, 480],
+        ..order(overrides, None)
+    };
+    beside(shop, &order).expect("a picture")
+}
+
+#[test]
+fn a_sample_of_a_brush_is_one_stroke_with_both_its_ends() {
+    let mut shop = Shop::new("--backend cpu --volume puff --eye 1,2,3");
+    shop.picture(&order(&[], None));
+    let style = [
+        "background=#ffffff",
+        "shade.paper=#ffffff",
+        "line.width.base=6px",
+    ];
+    let pen = sample(&mut shop, Swatch::Brush, &style);
+    let dark = |picture: &Picture, columns: [u32; 2]| {
+        let [first, last] = columns;
+        let all = (first..last).map(|column| darkness(picture, column));
+        all.sum::<f64>() / f64::from(last - first)
+    };
+    assert!(dark(&pen, [0, 12]) == 0.0 && dark(&pen, [224, 236]) == 0.0);
+    assert!(dark(&pen, [60, 176]) > 0.03, "{}", dark(&pen, [60, 176]));
+    let tapered = [&style[..], &["line.width.taper.start=200px"]].concat();
+    let tapered = sample(&mut shop, Swatch::Brush, &tapered);
+    let (start, end) = (dark(&tapered, [26, 60]), dark(&tapered, [176, 210]));
+    assert!(start < 0.75 * end, "{start} {end}");
+    let chalk = [&style[..], &["line.brush.tip=chalk"]].concat();
+    let chalk = sample(&mut shop, Swatch::Brush, &chalk);
+    assert!(chalk.rgba != pen.rgba && dark(&chalk, [60, 176]) > 0.01);
+}
+
+#[test]
+fn a_sample_of_hatching_is_dark_at_the_left_and_light_at_the_right() {
+    let mut shop = Shop::new("--backend cpu");
+    shop.picture(&order(&[], None));
+    let style = ["ink.tone=hatch", "ink.hatch.spacing=6px"];
+    let lines = sample(&mut shop, Swatch::Hatch, &style);
+    let dark = |picture: &Picture, first: u32| {
+        let all = (first..first + 40).map(|column| darkness(picture, column));
+        all.sum::<f64>() / 40.0
+    };
+    let shares = [10, 100, 186].map(|first| dark(&lines, first));
+    assert!(
+        shares[0] > shares[1] && shares[1] > shares[2] + 0.05,
+        "{shares:?}"
+    );
+    let dots = [&style[..], &["ink.hatch.pattern=dots"]].concat();
+    assert!(sample(&mut shop, Swatch::Hatch, &dots).rgba != lines.rgba);
 }
 
 #[test]

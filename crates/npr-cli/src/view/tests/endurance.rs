@@ -151,7 +151,7 @@ impl Pane {
 
     /// Does anything that a user may do.
     fn act(&mut self) {
-        match self.random.below(20) {
+        match self.random.below(21) {
             0..=6 => {
                 self.size = match self.random.below(40) {
                     0 => [1.0, 1.0],
@@ -200,6 +200,7 @@ impl Pane {
                     Key::Num5,
                     Key::Home,
                     Key::B,
+                    Key::L,
                 ];
                 let key = keys[self.random.below(keys.len())];
                 self.press(Modifiers::NONE, key);
@@ -209,6 +210,12 @@ impl Pane {
                 self.press(Modifiers::COMMAND, key);
             }
             18 => thread::sleep(Duration::from_millis(3)),
+            19 => {
+                let words = ["", "line.brush", "ink.hatch", "times passes"];
+                let words = words[self.random.below(words.len())];
+                self.studio.search(words);
+                self.show(Vec::new(), &[]);
+            }
             _ => self.show(Vec::new(), &[]),
         }
     }
