@@ -99,7 +99,7 @@ impl DebugLayer {
     }
 
     /// The layer of a name, if there is one.
-    #[cfg(feature = "view")]
+    #[cfg(any(feature = "view", test))]
     pub fn named(name: &str) -> Option<Self> {
         let layer = Self::from_str(name, false).ok();
         layer.filter(|layer| *layer != Self::List)

@@ -4,7 +4,7 @@ use egui::TextureHandle;
 
 use toml::Value;
 
-use crate::host::{Order, Swatch};
+use crate::host::Order;
 use crate::sheet::Sheet;
 
 /// A picture of the style that the studio began with, left of a handle.
@@ -62,8 +62,8 @@ impl Gallery {
 
 /// Samples of brushes and hatchings, drawn while they are in sight.
 pub(crate) struct Swatches {
-    /// Those that the panel shows.
-    pub in_sight: Vec<Swatch>,
+    /// The tables of those that the panel shows.
+    pub in_sight: Vec<&'static str>,
     /// Pixels to a point.
     pub scale: f32,
     drawn: Vec<Drawn>,
@@ -71,7 +71,7 @@ pub(crate) struct Swatches {
 
 /// A sample that was drawn.
 struct Drawn {
-    swatch: Swatch,
+    table: &'static str,
     /// The values that it shows, and its size in pixels.
     values: Vec<Option<Value>>,
     size: [u32; 2],
@@ -90,30 +90,30 @@ impl Default for Swatches {
 }
 
 impl Swatches {
-    /// The last picture of a sample, which stays while another is drawn.
-    pub fn picture(&self, swatch: Swatch) -> Option<&TextureHandle> {
+    /// The last picture of a table's sample, which stays while another is drawn.
+    pub fn picture(&self, table: &str) -> Option<&TextureHandle> {
         let mut all = self.drawn.iter();
-        all.find(|drawn| drawn.swatch == swatch)?.picture.as_ref()
+        all.find(|drawn| drawn.table == table)?.picture.as_ref()
     }
 
-    /// Whether a sample of these values and this size was drawn.
-    pub fn shows(&self, swatch: Swatch, values: &[Option<Value>], size: [u32; 2]) -> bool {
+    /// Whether a table's sample of these values and this size was drawn.
+    pub fn shows(&self, table: &str, values: &[Option<Value>], size: [u32; 2]) -> bool {
         let is_it =
-            |drawn: &Drawn| drawn.swatch == swatch && drawn.size == size && drawn.values == values;
+            |drawn: &Drawn| drawn.table == table && drawn.size == size && drawn.values == values;
         self.drawn.iter().any(is_it)
     }
 
-    /// Takes a sample in place of the one before.
+    /// Takes a table's sample in place of the one before.
     pub fn put(
         &mut self,
-        swatch: Swatch,
+        table: &'static str,
         values: Vec<Option<Value>>,
         size: [u32; 2],
         picture: Option<TextureHandle>,
     ) {
-        self.drawn.retain(|drawn| drawn.swatch != swatch);
+        self.drawn.retain(|drawn| drawn.table != table);
         self.drawn.push(Drawn {
-            swatch,
+            table,
             values,
             size,
             picture,

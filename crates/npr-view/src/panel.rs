@@ -18,7 +18,7 @@ use crate::beside::Swatches;
 use crate::sheet::Sheet;
 use controls::{UNFOLDED, control};
 pub(crate) use naming::{arrows, name_it, stepped};
-pub(crate) use samples::{SAMPLE_WIDTH, sampled};
+pub(crate) use samples::{SAMPLE_WIDTH, SAMPLES, Sample};
 
 /// Width of the names of keys, in points.
 const NAME_WIDTH: f32 = 118.0;

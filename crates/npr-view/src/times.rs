@@ -98,12 +98,19 @@ impl Times {
         let least = sorted.get(ROWS).copied().unwrap_or(-1.0);
         let (mut kept, others): (Vec<Row>, Vec<Row>) =
             rows.into_iter().partition(|row| longest(row) > least);
-        if !others.is_empty() {
+        if others.len() == 1 {
+            kept.extend(others);
+        } else if !others.is_empty() {
             let sum = |place: usize| others.iter().map(|(_, seconds)| seconds[place]).sum();
             let name = format!("{} other passes", others.len());
             kept.push((name, [sum(0), sum(1)]));
         }
-        kept.push(("everything else".to_owned(), rest));
+        let name = if kept.is_empty() {
+            "everything"
+        } else {
+            "everything else"
+        };
+        kept.push((name.to_owned(), rest));
         kept
     }
 

@@ -12,37 +12,55 @@ pub(crate) const SAMPLE_WIDTH: f32 = 236.0;
 /// Its height.
 const HEIGHT: f32 = 46.0;
 
-/// The tables of a style that have a sample.
-const TABLES: [(&str, Swatch); 2] = [("line.brush", Swatch::Brush), ("ink.hatch", Swatch::Hatch)];
-
-/// The keys whose values a sample shows.
-pub(crate) fn sampled(swatch: Swatch) -> [&'static str; 3] {
-    match swatch {
-        Swatch::Brush => ["line", "shade", "background"],
-        Swatch::Hatch => ["ink", "shade", "background"],
-    }
+/// A sample that stands at the head of a table of the style.
+pub(crate) struct Sample {
+    /// The table.
+    pub table: &'static str,
+    /// What is drawn.
+    pub swatch: Swatch,
+    /// The keys whose values it shows.
+    pub values: [&'static str; 3],
 }
+
+/// All samples.
+pub(crate) const SAMPLES: [Sample; 3] = [
+    Sample {
+        table: "line.brush",
+        swatch: Swatch::Brush,
+        values: ["line", "shade", "background"],
+    },
+    Sample {
+        table: "ink.hatch",
+        swatch: Swatch::Hatch,
+        values: ["ink", "shade", "background"],
+    },
+    Sample {
+        table: "smoke.ink.hatch",
+        swatch: Swatch::Hatch,
+        values: ["smoke.ink", "shade", "background"],
+    },
+];
 
 /// Shows the sample of a table of the style, where it has one, and notes that it is in sight.
 pub(super) fn show(ui: &mut Ui, table: &str, swatches: &mut Swatches) {
-    let Some((_, swatch)) = TABLES.iter().find(|(key, _)| *key == table) else {
+    let Some(sample) = SAMPLES.iter().find(|sample| sample.table == table) else {
         return;
     };
     swatches.scale = ui.ctx().pixels_per_point();
     let width = SAMPLE_WIDTH.min(ui.available_width() - 8.0).max(1.0);
     let (room, response) = ui.allocate_exact_size(vec2(width, HEIGHT), Sense::hover());
     name_it(&response, &format!("sample of {table}"));
-    response.on_hover_text(match swatch {
+    response.on_hover_text(match sample.swatch {
         Swatch::Brush => "a stroke in this style, with its brush, width and tapers, twice as large",
         Swatch::Hatch => "this hatching from the dark to the light, even where the style has none",
     });
     if ui.is_rect_visible(room) {
-        swatches.in_sight.push(*swatch);
+        swatches.in_sight.push(sample.table);
     }
 
     // Show the rows in the middle of its picture.
     let painter = ui.painter_at(room.expand(1.0));
-    match swatches.picture(*swatch) {
+    match swatches.picture(table) {
         None => {
             painter.rect_filled(room, 2.0, ui.visuals().faint_bg_color);
         }

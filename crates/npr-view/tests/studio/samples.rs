@@ -54,20 +54,19 @@ fn a_sample_in_sight_is_drawn_once_for_the_values_that_it_shows() {
             .any(|text| text.starts_with("line.brush.tip="))
     );
 
-    // Hatching has a sample of its own.
-    search(&mut harness, "ink.hatch");
-    let swatches: Vec<_> = asked(&easel).iter().map(|order| order.swatch).collect();
-    assert_eq!(swatches[2..], [Some(Swatch::Hatch)]);
+    // Hatching has a sample of its own, on surfaces and on smoke.
+    search(&mut harness, "ink.hatch.");
+    let samples = asked(&easel);
+    let swatches: Vec<_> = samples.iter().map(|order| order.swatch).collect();
+    assert_eq!(swatches[2..], [Some(Swatch::Hatch); 2]);
 
     // A stroke is enlarged, and hatching is there where the style has none.
-    let overrides = |i: usize| {
-        asked(&easel)[i]
-            .overrides
-            .last()
-            .cloned()
-            .unwrap_or_default()
-    };
-    assert_eq!([0, 2].map(overrides), ["line.scale=2", "ink.tone=hatch"]);
+    let last = |i: usize| samples[i].overrides.last().cloned().unwrap_or_default();
+    let wanted = ["line.scale=2", "ink.tone=hatch", "ink.tone=hatch"];
+    assert_eq!([0, 2, 3].map(last), wanted);
+    let [surface, smoke] = [2, 3].map(|i| samples[i].overrides.join("\n"));
+    assert!(!surface.contains("shade.mode") && smoke.contains("shade.mode=paper"));
+    assert!(smoke.contains("ink={ "), "{smoke}");
 }
 
 #[test]
@@ -76,7 +75,7 @@ fn no_sample_is_drawn_while_something_is_dragged() {
     harness.run_steps(20);
     search(&mut harness, "ink.hatch.");
     let before = asked(&easel).len();
-    assert_eq!(before, 1);
+    assert_eq!(before, 2);
     let slider = harness.get_by_role_and_label(Role::Slider, "ink.hatch.wobble");
     let slider = slider.rect();
     let start = pos2(slider.left() + 20.0, slider.center().y);
@@ -90,5 +89,12 @@ fn no_sample_is_drawn_while_something_is_dragged() {
     assert!(!harness.state().sheet().overrides().is_empty());
     harness.drop_at(start + vec2(48.0, 0.0));
     harness.run_steps(20);
-    assert_eq!(asked(&easel).len(), before + 1);
+    let after = asked(&easel);
+    assert_eq!(after.len(), before + 1);
+    assert!(
+        after[before]
+            .overrides
+            .iter()
+            .any(|text| text.starts_with("ink.hatch.wobble="))
+    );
 }

@@ -57,6 +57,7 @@ fn an_engine_without_time_stamps_says_so() {
     assert_eq!(shown(&harness, "time stamps"), 1);
     assert_eq!(shown(&harness, "raster.draw_ids"), 0);
     assert_eq!(shown(&harness, "10.0 / 0.0 ms"), 1);
+    assert_eq!(shown(&harness, "everything else"), 0);
 }
 
 #[test]
