@@ -78,7 +78,7 @@ impl Studio {
             name: "light of the smoke".to_owned(),
             key: "smoke.light",
             entry: None,
-            direction: scaled_to(direction, 1.0),
+            direction: unit(direction),
             on_camera,
             color: color(light.color),
         }));
@@ -238,15 +238,15 @@ fn direction_at([x, y]: [f32; 2]) -> [f32; 3] {
     }
 }
 
-/// A vector of a length; towards the eye where it has none of its own.
-fn scaled_to(v: [f32; 3], length: f32) -> [f32; 3] {
+/// A vector with length 1; towards the eye where it has no direction. Scales first, so that no square overflows.
+fn unit(v: [f32; 3]) -> [f32; 3] {
     let largest = v.iter().fold(0.0_f32, |most, part| most.max(part.abs()));
     if largest == 0.0 {
-        return [0.0, 0.0, length];
+        return [0.0, 0.0, 1.0];
     }
     let scaled = v.map(|part| part / largest);
     let own = dot(scaled, scaled).sqrt();
-    scaled.map(|part| part / own * length)
+    scaled.map(|part| part / own)
 }
 
 fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
