@@ -4,6 +4,7 @@ use npr_core::budget::OverBudget;
 use npr_core::interrupt::Interrupted;
 use npr_gpu::curves::CurvesError;
 use npr_gpu::engine::EngineError;
+use npr_vector::mesh_lines::draw::FindError;
 
 /// Why a picture could not be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -141,6 +142,15 @@ impl RenderError {
 impl From<Interrupted> for RenderError {
     fn from(interrupted: Interrupted) -> Self {
         Self::Engine(interrupted.into())
+    }
+}
+
+impl From<FindError> for RenderError {
+    fn from(error: FindError) -> Self {
+        match error {
+            FindError::Memory(error) => error.into(),
+            FindError::Interrupted(error) => error.into(),
+        }
     }
 }
 

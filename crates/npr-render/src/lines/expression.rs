@@ -230,7 +230,7 @@ impl Expression {
     ///
     /// # Errors
     ///
-    /// [`RenderError::TooMany`] before memory is taken for more points than a drawing may have; where `watch` ends it.
+    /// [`RenderError::TooMany`] before memory is taken for more points than a drawing may have.
     pub(super) fn draw(
         &self,
         strokes: &mut Vec<Stroke>,
@@ -275,12 +275,12 @@ impl Expression {
             move_ends(strokes, size, |stroke| Some(&of(stroke)?.overshoot));
         }
         press_strokes(strokes, |stroke| Some(&of(stroke)?.pressure));
-        watch(WidthStep::Pressure, strokes)?;
+        watch(WidthStep::Pressure, strokes);
         leave_room(strokes, self.room, is_drawn);
-        watch(WidthStep::Room, strokes)?;
+        watch(WidthStep::Room, strokes);
         let tapers = |stroke: &Stroke| tapers.get(manner_of(stroke)? as usize);
         taper_strokes(strokes, size, tapers, is_lifted);
-        watch(WidthStep::Taper, strokes)?;
+        watch(WidthStep::Taper, strokes);
 
         // Let them sway, and cut them.
         let hand_of = |stroke: &Stroke| Some(&of(stroke)?.hand);

@@ -34,6 +34,7 @@ use glam::{DVec3, Vec3};
 use npr_core::budget::{Budget, OverBudget};
 use npr_core::camera::Camera;
 use npr_core::crease::CreaseFrom;
+use npr_core::interrupt::Interrupt;
 use npr_core::line_source::LineSource;
 use npr_core::texture::TextureStore;
 use npr_drawing::artwork::StrokeBrushes;
@@ -126,6 +127,8 @@ struct Wanted<'a> {
     is_open: bool,
     /// Sees strokes after every step that changes their widths.
     watch: Watch<'a>,
+    /// Ends the work where it is raised.
+    interrupt: &'a Interrupt,
 }
 
 impl LineModel {
@@ -347,6 +350,7 @@ impl LineModel {
             movement,
             is_open: false,
             watch,
+            interrupt: &Interrupt::NEVER,
         };
         self.draw_some(&wanted, (find, held), |_| true)
     }
@@ -361,7 +365,7 @@ impl LineModel {
         (options, is_open): (&LineOptions, bool),
         pictures: &BTreeMap<String, Picture>,
         (find, (held, movement)): (&mut dyn Finder, (Option<&mut HeldLines>, Option<&Movement>)),
-        watch: Watch<'_>,
+        (watch, interrupt): (Watch<'_>, &Interrupt),
     ) -> Result<Drawing, RenderError> {
         let is_curve = |look: &Look<'_>| look.line_method.source() == Some(options.method);
         let folds_alone = LineOptions {
@@ -378,6 +382,7 @@ impl LineModel {
             movement,
             is_open,
             watch,
+            interrupt,
         };
         self.draw_some(&wanted, (find, held), is_curve)
     }
@@ -399,7 +404,9 @@ impl LineModel {
             movement,
             is_open,
             watch,
+            interrupt,
         } = *wanted;
+        interrupt.check()?;
         check_size(options.size)?;
         let is_empty = self.points.is_empty();
         let bounds = smoke::joined(smoke, self.bounds, is_empty);
@@ -449,6 +456,7 @@ impl LineModel {
             colors: colors.as_ref(),
             changes: stroke_contrast.is_some(),
             is_open,
+            interrupt,
             recent: &self.recent,
         };
         let surfaces = &self.shape.surfaces;
@@ -472,9 +480,10 @@ impl LineModel {
             mut strokes,
             left_out,
         } = self.strokes(&prepared, &view, (style, options), &paint, (find, joints))?;
-        watch(WidthStep::Source, &strokes)?;
+        interrupt.check()?;
+        watch(WidthStep::Source, &strokes);
         paint.apply(&mut strokes);
-        watch(WidthStep::Part, &strokes)?;
+        watch(WidthStep::Part, &strokes);
         if let Some(held) = &mut held {
             held.strokes.hold(&mut strokes, &self.shape, &projector);
         }
@@ -497,8 +506,9 @@ impl LineModel {
         if let Some(movement) = movement.filter(|_| !options.method.is_of_pixels()) {
             let view = (camera, style, options.size);
             self.smear(&mut strokes, (movement, &projector), view);
-            watch(WidthStep::Motion, &strokes)?;
+            watch(WidthStep::Motion, &strokes);
         }
+        interrupt.check()?;
         let manners = StrokeManners::new(&self.parts, style);
         let manner_of = |stroke: &Stroke| {
             let is_of_part = (stroke.surface as usize) < self.parts.len();

@@ -202,10 +202,7 @@ impl<'a> LineRenderer<'a> {
             options,
             self.finder.as_mut(),
             (None, self.movement.as_deref()),
-            &|step, strokes| {
-                probe.see(step, strokes);
-                Ok(())
-            },
+            &|step, strokes| probe.see(step, strokes),
         )?;
         model.pointed((camera, style, options), &drawing, &probe)
     }
@@ -220,10 +217,7 @@ impl<'a> LineRenderer<'a> {
         spot: Spot,
     ) -> Result<Pointed, RenderError> {
         let probe = Probe::new(spot);
-        let see = |step: WidthStep, strokes: &[Stroke]| {
-            probe.see(step, strokes);
-            Ok(())
-        };
+        let see = |step: WidthStep, strokes: &[Stroke]| probe.see(step, strokes);
         let drawing = self.watched_curves(camera, style, options, pictures, &see)?;
         self.model()
             .pointed((camera, style, options), &drawing, &probe)
@@ -242,7 +236,6 @@ impl<'a> LineRenderer<'a> {
             if step == WidthStep::Part {
                 found.replace(strokes.to_vec());
             }
-            Ok(())
         };
         let drawing = self.watched_curves(camera, style, options, pictures, &see)?;
         Ok(Drawing {
@@ -264,7 +257,8 @@ impl<'a> LineRenderer<'a> {
         let model = self.posed.as_deref().unwrap_or(self.given);
         let find: &mut dyn Finder = self.finder.as_mut();
         let seen = (find, (None, self.movement.as_deref()));
-        model.draw_curves(camera, style, (options, false), pictures, seen, watch)
+        let on_the_way = (watch, &Interrupt::NEVER);
+        model.draw_curves(camera, style, (options, false), pictures, seen, on_the_way)
     }
 
     /// The lines of the parts whose style asks for curves that are found as `options` says; smoke hides none of them.
@@ -276,14 +270,20 @@ impl<'a> LineRenderer<'a> {
         (options, is_open): (&LineOptions, bool),
         (pictures, interrupt): (&BTreeMap<String, Picture>, &Interrupt),
     ) -> Result<Drawing, RenderError> {
-        interrupt.check()?;
         self.finder.start_view();
         let model = self.posed.as_deref().unwrap_or(self.given);
         let find: &mut dyn Finder = self.finder.as_mut();
         let before = (self.held.as_mut(), self.movement.as_deref());
         let of_method = (options, is_open);
-        let watch: Watch<'_> = &|_, _| interrupt.check();
-        model.draw_curves(camera, style, of_method, pictures, (find, before), watch)
+        let on_the_way = (&nobody as Watch<'_>, interrupt);
+        model.draw_curves(
+            camera,
+            style,
+            of_method,
+            pictures,
+            (find, before),
+            on_the_way,
+        )
     }
 
     /// How long each pass of the last view took; none on the processor.

@@ -6,6 +6,7 @@ use super::texture_map::TextureMap;
 use crate::error::RenderError;
 use crate::placement::Bounds;
 use npr_core::camera::Camera;
+use npr_core::interrupt::Interrupt;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_vector::mesh_lines::JointsInView;
 use npr_vector::mesh_lines::contour::EdgeContours;
@@ -34,6 +35,8 @@ pub(super) struct LineView<'a> {
     pub changes: bool,
     /// Whether it is left open what is seen of lines.
     pub is_open: bool,
+    /// Ends the work where it is raised.
+    pub interrupt: &'a Interrupt,
     /// The lines of views before.
     pub recent: &'a RecentViews,
 }
@@ -60,6 +63,7 @@ impl LineView<'_> {
                 settings,
                 self.contours,
                 (self.smoke, held),
+                self.interrupt,
             )
         };
 

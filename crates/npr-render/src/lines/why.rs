@@ -12,7 +12,6 @@ use facts::Facts;
 use glam::DVec3;
 use npr_core::camera::Camera;
 use npr_core::geometry::NONE;
-use npr_core::interrupt::Interrupted;
 use npr_stylesheet::Style;
 use npr_vector::project::Projector;
 use npr_vector::stroke::{Drawing, Kind, Stroke, StrokePoint};
@@ -42,13 +41,11 @@ pub(crate) enum WidthStep {
     Taper,
 }
 
-/// Sees the strokes of a drawing after every step, and may end the work there.
-pub(crate) type Watch<'a> = &'a dyn Fn(WidthStep, &[Stroke]) -> Result<(), Interrupted>;
+/// Sees the strokes of a drawing after every step.
+pub(crate) type Watch<'a> = &'a dyn Fn(WidthStep, &[Stroke]);
 
 /// Watches nothing.
-pub(super) fn nobody(_: WidthStep, _: &[Stroke]) -> Result<(), Interrupted> {
-    Ok(())
-}
+pub(super) fn nobody(_: WidthStep, _: &[Stroke]) {}
 
 /// A place of a picture that somebody points at.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -30,6 +30,7 @@ use crate::mesh_lines::visibility::{FaceImages, Seen};
 use crate::project::Projector;
 use crate::stroke::Stroke;
 use npr_core::budget::OverBudget;
+use npr_core::interrupt::{Interrupt, Interrupted};
 use npr_core::line_kind::KindSet;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use rayon::prelude::*;
@@ -46,6 +47,17 @@ pub struct ViewStrokes {
 
 /// Most surfaces in front of a hidden line that are counted.
 const HIDDEN_COUNT_LIMIT: u32 = 255;
+
+/// Why the lines of a view were not found.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum FindError {
+    /// They would take more memory than the settings allow.
+    #[error(transparent)]
+    Memory(#[from] OverBudget),
+    /// Somebody ended the work.
+    #[error(transparent)]
+    Interrupted(#[from] Interrupted),
+}
 
 /// The lines of a view as strokes; visible ones first where hidden ones are asked for, then by chain.
 ///
@@ -99,7 +111,7 @@ pub fn strokes(
 ///
 /// # Errors
 ///
-/// [`OverBudget`] where what is found would take more than the settings' limit.
+/// [`FindError::Memory`] where what is found would take more than the settings' limit.
 pub fn strokes_with(
     shape: &HalfEdgeMesh,
     prepared: &Prepared,
@@ -108,7 +120,7 @@ pub fn strokes_with(
     contours: &EdgeContours,
     look: &StrokeLook<'_>,
     (smoke, held): (Option<&SmokeLines<'_>>, Option<JointsInView<'_>>),
-) -> Result<ViewStrokes, OverBudget> {
+) -> Result<ViewStrokes, FindError> {
     let found = runs_with(
         shape,
         prepared,
@@ -116,16 +128,17 @@ pub fn strokes_with(
         settings,
         contours,
         (smoke, held),
+        &Interrupt::NEVER,
     )?;
     Ok(found.strokes(shape, projector, look))
 }
 
 /// As [`strokes_with`], before the lines have widths and colours: nearly all of the time goes into this, and the look
-/// of a drawing has no part in it.
+/// of a drawing has no part in it. The flag is asked for every line.
 ///
 /// # Errors
 ///
-/// As [`strokes_with`].
+/// As [`strokes_with`], and [`FindError::Interrupted`] where the flag is raised.
 pub fn runs_with(
     shape: &HalfEdgeMesh,
     prepared: &Prepared,
@@ -133,7 +146,8 @@ pub fn runs_with(
     settings: &LineSettings,
     contours: &EdgeContours,
     (smoke, held): (Option<&SmokeLines<'_>>, Option<JointsInView<'_>>),
-) -> Result<ViewRuns, OverBudget> {
+    interrupt: &Interrupt,
+) -> Result<ViewRuns, FindError> {
     let EdgeContours {
         front,
         graph: edge_contours,
@@ -149,6 +163,7 @@ pub fn runs_with(
         covered: Vec::new(),
     };
     let mut toll = Toll::new(settings);
+    toll.interrupt = interrupt.clone();
     let outlines = view.outlines(edge_contours, &mut toll.budget)?;
     let images = FaceImages::default();
     let seen = Seen {
@@ -209,6 +224,7 @@ pub fn runs_with(
     }
 
     // Join and smooth them, and add the outline of smoke.
+    interrupt.check()?;
     let runs = calmed(found, settings, projector.lens(), held);
     let of_smoke = smoke.map(|smoke| {
         let seen = Seen {

@@ -1,15 +1,19 @@
 //! Faces by the thousand that cut, cover or touch each other: what is found of their lines is bounded, and in memory.
 
 use npr_core::camera::{Camera, Projection};
+use npr_core::interrupt::{Interrupt, Interrupted};
 use npr_core::line_kind::KindSet;
 use npr_mesh::Mesh;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_mesh::testing::{coplanar_soup, crossing_soup, fan, needles, shape_of};
 use npr_vector::mesh_lines::contour::EdgeContours;
 use npr_vector::mesh_lines::draw::{
-    LineSettings, LineSource, Prepared, StrokeLook, ViewStrokes, eye_of, strokes_with,
+    FindError, LineSettings, LineSource, Prepared, StrokeLook, ViewStrokes, eye_of, runs_with,
 };
 use npr_vector::project::Projector;
+use proptest::prelude::*;
+use std::thread;
+use std::time::Duration;
 
 const SIZE: [u32; 2] = [400, 300];
 
@@ -17,11 +21,15 @@ const SIZE: [u32; 2] = [400, 300];
 /// would take.
 const ENOUGH: u64 = 64 << 20;
 
-fn drawn(
+fn drawn(shape: &HalfEdgeMesh, hidden: bool, memory_limit: u64) -> Result<ViewStrokes, FindError> {
+    drawn_until(shape, (hidden, memory_limit), &Interrupt::NEVER)
+}
+
+fn drawn_until(
     shape: &HalfEdgeMesh,
-    hidden: bool,
-    memory_limit: u64,
-) -> Result<ViewStrokes, npr_core::budget::OverBudget> {
+    (hidden, memory_limit): (bool, u64),
+    interrupt: &Interrupt,
+) -> Result<ViewStrokes, FindError> {
     let settings = LineSettings {
         size: SIZE,
         kinds: KindSet::BITS & !KindSet::INTERSECTION,
@@ -46,15 +54,16 @@ fn drawn(
         is_lit: false,
         follows_bends: false,
     };
-    strokes_with(
+    let found = runs_with(
         shape,
         &prepared,
         &projector,
         &settings,
         &contours,
-        &look,
         (None, None),
-    )
+        interrupt,
+    )?;
+    Ok(found.strokes(shape, &projector, &look))
 }
 
 fn crowds() -> [(&'static str, Mesh); 4] {
@@ -103,6 +112,9 @@ fn only_black_paper_takes_no_more_lines() {
 fn a_crowd_beyond_the_memory_limit_is_refused() {
     let shape = shape_of(&crossing_soup(3000, 1));
     let error = drawn(&shape, false, 100_000).expect_err("too little");
+    let FindError::Memory(error) = error else {
+        panic!("{error}");
+    };
     assert!(error.needed_bytes > error.left_bytes);
 }
 
@@ -115,4 +127,28 @@ fn crowds_are_the_same_for_any_number_of_threads() {
         pool.install(|| drawn(&shape, true, u64::MAX))
     };
     assert_eq!(with(1), with(3));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 16, ..ProptestConfig::default() })]
+
+    /// Whenever the flag is raised, all lines are found or none.
+    #[test]
+    fn a_crowd_is_found_as_a_whole_or_not_at_all(crowd in 0_usize..4, wait_us in 0_u64..60_000) {
+        let (name, mesh) = &crowds()[crowd];
+        let (shape, interrupt) = (shape_of(mesh), Interrupt::new());
+        let found = thread::scope(|scope| {
+            scope.spawn(|| {
+                thread::sleep(Duration::from_micros(wait_us));
+                interrupt.raise();
+            });
+            drawn_until(&shape, (false, ENOUGH), &interrupt)
+        });
+        match found {
+            Ok(found) => prop_assert_eq!(found, drawn(&shape, false, ENOUGH).expect(name)),
+            Err(error) => prop_assert_eq!(error, FindError::Interrupted(Interrupted)),
+        }
+        let never = drawn_until(&shape, (false, ENOUGH), &interrupt);
+        prop_assert_eq!(never, Err(FindError::Interrupted(Interrupted)));
+    }
 }

@@ -155,36 +155,56 @@ impl Hand {
         }
         let drafts = f64::from(count) / start.elapsed().as_secs_f64();
 
-        // Let go, and drag again while the full picture is drawn.
-        self.press(false);
-        let let_go = Instant::now();
-        while let_go.elapsed() < PAUSE {
-            self.show();
-        }
-        self.press(true);
-        self.place += vec2(7.0, 0.0);
-        self.harness.event(Event::PointerMoved(self.place));
-        let caught = Instant::now();
-        self.show();
-        let change = self.harness.state().order().change;
-        while self
-            .harness
-            .state()
-            .picture()
-            .map(|picture| picture.order.change)
-            != Some(change)
-        {
-            self.show();
-        }
-        let first_s = caught.elapsed().as_secs_f64();
-
         // Let go.
         self.press(false);
         Measured {
             drafts,
             size,
             full_s: self.settle(),
-            first_s,
+            first_s: self.catch(from),
+        }
+    }
+
+    /// Moves what was dragged, lets go, and drags it on while the full picture is drawn: gives the seconds to the first
+    /// draft.
+    fn catch(&mut self, from: Pos2) -> f64 {
+        // Let the full picture begin.
+        self.place = from;
+        self.press(true);
+        self.move_by(30.0);
+        self.press(false);
+        let let_go = Instant::now();
+        while let_go.elapsed() < PAUSE {
+            self.show();
+        }
+
+        // Drag on.
+        self.place = from;
+        self.press(true);
+        let before = self.harness.state().order().change;
+        let caught = Instant::now();
+        self.move_by(-30.0);
+        let change = |hand: &Self| hand.harness.state().order().change;
+        assert_ne!(change(self), before, "nothing was dragged");
+        let is_shown = |hand: &Self| {
+            let shown = hand.harness.state().picture();
+            shown.is_some_and(|picture| picture.order.change > before)
+        };
+        while !is_shown(self) {
+            self.show();
+        }
+        let first_s = caught.elapsed().as_secs_f64();
+        self.press(false);
+        self.settle();
+        first_s
+    }
+
+    /// Moves the pointer to a side in two steps: the first is the one that makes a press a drag.
+    fn move_by(&mut self, way: f32) {
+        for _ in 0..2 {
+            self.place += vec2(0.5 * way, 0.0);
+            self.harness.event(Event::PointerMoved(self.place));
+            self.show();
         }
     }
 }

@@ -16,6 +16,7 @@ use crate::mesh_lines::line::Line;
 use crate::mesh_lines::visibility::{Change, Memory, Seen};
 use glam::DVec3;
 use npr_core::geometry::NONE;
+use npr_core::interrupt::{Interrupt, Interrupted};
 use npr_mesh::half_edge::HalfEdgeMesh;
 use rayon::prelude::*;
 
@@ -55,8 +56,8 @@ pub(super) fn looked_at(
     view: &View<'_>,
     graph: &CurveGraph,
     seen: &Seen<'_>,
-    drafts: &[Option<Draft>],
-) -> Vec<Option<Line>> {
+    (drafts, interrupt): (&[Option<Draft>], &Interrupt),
+) -> Result<Vec<Option<Line>>, Interrupted> {
     // Count the changes at vertices.
     let changes: Vec<Change> = graph
         .nodes
@@ -83,9 +84,10 @@ pub(super) fn looked_at(
         .par_windows(2)
         .with_min_len(8)
         .map_init(Memory::default, |memory, ends| {
-            looks.at(&members[ends[0]..ends[1]], memory)
+            interrupt.check()?;
+            Ok(looks.at(&members[ends[0]..ends[1]], memory))
         })
-        .collect();
+        .collect::<Result<_, Interrupted>>()?;
 
     // Put what was seen in the order of the lines.
     let mut count = 0;
@@ -109,7 +111,7 @@ pub(super) fn looked_at(
             };
         }
     }
-    (graph.nodes.par_iter().zip(drafts))
+    let lines = (graph.nodes.par_iter().zip(drafts))
         .with_min_len(2048)
         .zip(firsts)
         .map(|((node, draft), first)| {
@@ -117,7 +119,8 @@ pub(super) fn looked_at(
             let occluders = &occluders[first..first + draft.span_count()];
             Some(view.line_of(node, draft.kind, draft.piece, draft.spans(occluders)))
         })
-        .collect()
+        .collect();
+    Ok(lines)
 }
 
 /// All spans, stretch by stretch, and where each stretch starts, with the end of the last.

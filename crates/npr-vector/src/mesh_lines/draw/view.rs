@@ -1,5 +1,6 @@
 //! The pieces of all lines in one view of a shape, and their visible parts.
 
+use super::FindError;
 use super::masses::leave_out_within;
 use super::prepared::Prepared;
 use super::stretches;
@@ -19,6 +20,7 @@ use crate::stroke::Kind;
 use npr_core::budget::{Budget, OverBudget};
 use npr_core::edge_flags::EdgeFlags;
 use npr_core::geometry::NONE;
+use npr_core::interrupt::{Interrupt, Interrupted};
 use npr_core::line_kind::KindSet;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use rayon::prelude::*;
@@ -34,6 +36,8 @@ pub(super) struct Toll {
     pub(super) left_out: usize,
     /// Whether memory for boxes of faces has been taken.
     has_images: bool,
+    /// Ends the work where it is raised.
+    pub(super) interrupt: Interrupt,
 }
 
 impl Toll {
@@ -43,6 +47,7 @@ impl Toll {
             ink: Ink::new(settings.size),
             left_out: 0,
             has_images: false,
+            interrupt: Interrupt::NEVER,
         }
     }
 
@@ -203,7 +208,7 @@ impl View<'_> {
         seen: &Seen<'_>,
         wanted: u32,
         toll: &mut Toll,
-    ) -> Result<Vec<Option<Line>>, OverBudget> {
+    ) -> Result<Vec<Option<Line>>, FindError> {
         let count = graph.nodes.len();
         if count == 0 {
             return Ok(Vec::new());
@@ -216,9 +221,12 @@ impl View<'_> {
             .nodes
             .par_iter()
             .with_min_len(64)
-            .map(|node| self.draft(graph, node, seen, wanted))
-            .collect();
-        let mut lines = stretches::looked_at(self, graph, seen, &drafts);
+            .map(|node| {
+                toll.interrupt.check()?;
+                Ok(self.draft(graph, node, seen, wanted))
+            })
+            .collect::<Result<_, Interrupted>>()?;
+        let mut lines = stretches::looked_at(self, graph, seen, (&drafts, &toll.interrupt))?;
 
         // Look at crowded pieces by the ink on the paper.
         toll.take_spans(lines.iter().flatten().map(|line| line.spans.len()).sum())?;
