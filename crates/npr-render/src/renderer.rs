@@ -474,8 +474,8 @@ impl<'a> Renderer<'a> {
     ///
     /// # Errors
     ///
-    /// [`RenderError::Engine`] where the device fails or the frame is [interrupted](RendererOptions::interrupt); nothing
-    /// half drawn is returned, and the next frame is drawn as if it were the first.
+    /// [`RenderError::Engine`] where the device fails or the frame is [interrupted](RendererOptions::interrupt);
+    /// nothing half drawn is returned, and the next frame is drawn as if it were the first.
     pub fn draw(&mut self, camera: &Camera) -> Result<Frame, RenderError> {
         self.forget_begun();
         let begun = self.begin(camera)?;

@@ -5,6 +5,7 @@
 
 mod calm;
 mod even_paint;
+mod find_error;
 mod masses;
 mod paint;
 mod prepared;
@@ -15,6 +16,7 @@ mod view_runs;
 
 pub use crate::mesh_lines::line_settings::{LineSettings, LineSource};
 pub(crate) use calm::calmed;
+pub use find_error::FindError;
 pub(crate) use paint::strokes_of;
 pub use paint::{PaintAt, PointPaint, StrokeLook};
 pub use prepared::{FindCrossings, Prepared};
@@ -29,8 +31,7 @@ use crate::mesh_lines::suppressed_edges::{edges_beside, suppressed_edges};
 use crate::mesh_lines::visibility::{FaceImages, Seen};
 use crate::project::Projector;
 use crate::stroke::Stroke;
-use npr_core::budget::OverBudget;
-use npr_core::interrupt::{Interrupt, Interrupted};
+use npr_core::interrupt::Interrupt;
 use npr_core::line_kind::KindSet;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use rayon::prelude::*;
@@ -47,17 +48,6 @@ pub struct ViewStrokes {
 
 /// Most surfaces in front of a hidden line that are counted.
 const HIDDEN_COUNT_LIMIT: u32 = 255;
-
-/// Why the lines of a view were not found.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub enum FindError {
-    /// They would take more memory than the settings allow.
-    #[error(transparent)]
-    Memory(#[from] OverBudget),
-    /// Somebody ended the work.
-    #[error(transparent)]
-    Interrupted(#[from] Interrupted),
-}
 
 /// The lines of a view as strokes; visible ones first where hidden ones are asked for, then by chain.
 ///

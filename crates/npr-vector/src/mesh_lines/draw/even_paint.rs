@@ -73,8 +73,8 @@ fn walk(stroke: &Stroke, (from, step): (usize, usize), reach: f64, mean: &mut Me
     first
 }
 
-/// Limits how fast widths change along the strokes that `is_limited`, as [`limit_slope`] does, and across the ends where
-/// one goes on as another: there a pen does not jump either. `mates` holds for each end the one that goes on, or
+/// Limits how fast widths change along the strokes that `is_limited`, as [`limit_slope`] does, and across the ends
+/// where one goes on as another: there a pen does not jump either. `mates` holds for each end the one that goes on, or
 /// [`usize::MAX`]; end `2 s` is the first point of stroke `s`, `2 s + 1` its last. O(points).
 pub(super) fn limit_slopes(
     strokes: &mut [Stroke],

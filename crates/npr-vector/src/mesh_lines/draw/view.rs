@@ -1,6 +1,6 @@
 //! The pieces of all lines in one view of a shape, and their visible parts.
 
-use super::FindError;
+use super::find_error::FindError;
 use super::masses::leave_out_within;
 use super::prepared::Prepared;
 use super::stretches;
