@@ -11,6 +11,7 @@
 //! and change over along some pixels.
 
 mod between;
+mod growth;
 mod identity;
 mod order;
 mod phase;
@@ -85,6 +86,20 @@ impl HeldStrokes {
         }
     }
 
+    /// As [`HeldStrokes::hold`], where strokes may be shortened: visible ends in the open of lines that were there grow
+    /// by 8 pixels a frame at most, unless they grow by more than 24.
+    ///
+    /// An end that is now here and now a little further on would leap all the time; so it stays about where it is
+    /// nearer.
+    pub fn hold_growing(
+        &mut self,
+        strokes: &mut Vec<Stroke>,
+        shape: &HalfEdgeMesh,
+        projector: &Projector,
+    ) {
+        self.take_over(strokes, shape, projector, true);
+    }
+
     /// Gives the strokes of a frame what they had in the frame before, and remembers them.
     ///
     /// `shape` is the surface in the pose of this frame, whatever pose it had before: its vertices, edges and faces
@@ -96,6 +111,17 @@ impl HeldStrokes {
     ///
     /// O(pixels of line), on all threads, with the same result for any number of them.
     pub fn hold(&mut self, strokes: &mut Vec<Stroke>, shape: &HalfEdgeMesh, projector: &Projector) {
+        self.take_over(strokes, shape, projector, false);
+    }
+
+    /// As [`HeldStrokes::hold`], with ends that grow or do not.
+    fn take_over(
+        &mut self,
+        strokes: &mut Vec<Stroke>,
+        shape: &HalfEdgeMesh,
+        projector: &Projector,
+        grows: bool,
+    ) {
         // Forget all where the camera jumped.
         let forward = projector.forward();
         if self
@@ -120,6 +146,14 @@ impl HeldStrokes {
             tallies
                 .iter_mut()
                 .for_each(|tally| *tally = Tally::default());
+        }
+
+        // Let ends grow.
+        if grows && !self.lines.is_empty() {
+            for number in growth::slow_growth(strokes, &known) {
+                measure(&mut strokes[number].points);
+                tallies[number] = tally(&known, &strokes[number]);
+            }
         }
 
         // Turn strokes as they ran, start rings where they started, and shift the textures.

@@ -485,7 +485,10 @@ impl LineModel {
         paint.apply(&mut strokes);
         watch(WidthStep::Part, &strokes);
         if let Some(held) = &mut held {
-            held.strokes.hold(&mut strokes, &self.shape, &projector);
+            match options.method.is_of_pixels() {
+                true => (held.strokes).hold(&mut strokes, &self.shape, &projector),
+                false => (held.strokes).hold_growing(&mut strokes, &self.shape, &projector),
+            }
         }
         if let Some(stroke_contrast) = stroke_contrast {
             stroke_contrast.apply(&mut strokes, &|surface| paint.line_color(surface));

@@ -299,7 +299,7 @@ fn apply(stroke: &mut Stroke, parts: &[Part]) {
 }
 
 /// The point a share of the way from one to another of the same colour.
-fn between(from: &StrokePoint, to: &StrokePoint, share: f64) -> StrokePoint {
+pub(super) fn between(from: &StrokePoint, to: &StrokePoint, share: f64) -> StrokePoint {
     let mix = |a: f64, b: f64| a + (b - a) * share;
     StrokePoint {
         position: [0, 1].map(|i| mix(from.position[i], to.position[i])),

@@ -227,6 +227,122 @@ fn lines_of_other_kinds_at_one_place_keep_their_own() {
     assert_eq!(of(Kind::Crease), Some((2, 20.0)));
 }
 
+/// Two tips of level lines that face each other, at so many pixels from the left border.
+fn facing([from, to]: [f64; 2]) -> [Tip; 2] {
+    [(from, 1.0), (to, -1.0)].map(|(x, out)| Tip {
+        place: [x, 100.0],
+        back_place: [x - 6.0 * out, 100.0],
+        out: [out, 0.0],
+        kind: Kind::Contour,
+        is_hidden: false,
+    })
+}
+
+#[test]
+fn lines_that_met_at_their_ends_were_two() {
+    let (shape, view, mut state) = (sheet(0.0), view(0.0), HeldStrokes::default());
+    let mut strokes = vec![line(1, 100.0, 200.0, 100.0), line(2, 200.5, 300.0, 100.0)];
+    state.hold(&mut strokes, &shape, &view);
+    let known = state.in_view(&shape, &view);
+    assert_eq!(known.between(&facing([200.0, 200.5])), DrawnBetween::End);
+    assert_eq!(known.between(&facing([201.0, 199.0])), DrawnBetween::End);
+    assert_eq!(known.between(&facing([150.0, 150.5])), DrawnBetween::Line);
+}
+
+proptest! {
+    /// What was between two tips is read off the parts of a level line that were drawn.
+    #[test]
+    fn between_tips_a_line_went_on_or_ended(
+        lengths in prop::collection::vec((20.0..90.0_f64, 0.5..30.0_f64), 1..5), at in 60.0..400.0_f64,
+        gap in 0.0..12.0_f64,
+    ) {
+        // Draw the parts.
+        let mut parts: Vec<[f64; 2]> = Vec::new();
+        for (length, before) in lengths {
+            let from = parts.last().map_or(50.0, |part| part[1]) + before;
+            parts.push([from, from + length]);
+        }
+        let mut strokes: Vec<Stroke> = (1..).zip(&parts).map(|(id, [from, to])| line(id, *from, *to, 100.0)).collect();
+        let (shape, view, mut state) = (sheet(0.0), view(0.0), HeldStrokes::default());
+        state.hold(&mut strokes, &shape, &view);
+
+        // Look at which of them lie under the tips, and end near the gap; where that is plain.
+        let [back_a, back_b] = [at - 6.0, at + gap + 6.0];
+        let under = |x: f64| parts.iter().filter(move |[from, to]| *from < x && x < *to);
+        let is_plain = parts.iter().flatten().all(|end| (end - back_a).abs() > 5.1 && (end - back_b).abs() > 5.1);
+        let left = under(back_a).map(|[_, to]| to - back_a).chain(under(back_b).map(|[from, _]| back_b - from));
+        let left: Vec<f64> = left.map(|left| left - (6.0 + gap + 4.0)).collect();
+        prop_assume!(is_plain && left.iter().all(|left| left.abs() > 4.0));
+        let oracle = match () {
+            () if under(back_a).any(|[_, to]| *to > back_b) => DrawnBetween::Line,
+            () if left.iter().any(|left| *left < 0.0) => DrawnBetween::End,
+            () => DrawnBetween::Nothing,
+        };
+        prop_assert_eq!(state.in_view(&shape, &view).between(&facing([at, at + gap])), oracle);
+    }
+
+    /// Ends never leap, unless by far: they go where they should by steps, and shrink at once.
+    #[test]
+    fn ends_grow_by_steps(
+        targets in prop::collection::vec((0.0..20.0_f64, 1_usize..8), 1..6), at_start: bool, turned: bool,
+    ) {
+        let (shape, view, mut state) = (sheet(0.0), view(0.0), HeldStrokes::default());
+        let mut drawn: Option<f64> = None;
+        for (target, frames) in targets {
+            for _ in 0..frames {
+                let [from, to] = if at_start { [200.0 - target, 300.0] } else { [100.0, 200.0 + target] };
+                let mut ends = [from, to];
+                if turned {
+                    ends.reverse();
+                }
+                let mut strokes = vec![line(1, ends[0], ends[1], 50.0)];
+                state.hold_growing(&mut strokes, &shape, &view);
+                prop_assert_eq!(strokes.len(), 1);
+                let places = || strokes[0].points.iter().map(|point| point.position[0]);
+                let [least, most] = [places().fold(f64::MAX, f64::min), places().fold(0.0, f64::max)];
+                let (moving, still) = if at_start { (200.0 - least, most - 300.0) } else { (most - 200.0, least - 100.0) };
+                let was = drawn.unwrap_or(target);
+                prop_assert!(still.abs() < 1e-9);
+                prop_assert!(moving <= target + 1e-9 && moving - was <= 8.0 + 1e-9, "{was} to {moving} of {target}");
+                prop_assert!(moving >= target.min(was + 3.0) - 1e-9, "{was} to {moving} of {target}");
+                drawn = Some(moving);
+            }
+        }
+    }
+}
+
+#[test]
+fn what_grows_by_far_comes_at_once_and_what_is_new_too() {
+    let (shape, view, mut state) = (sheet(0.0), view(0.0), HeldStrokes::default());
+    let mut drawn = |strokes: Vec<Stroke>| -> Vec<f64> {
+        let mut strokes = strokes;
+        state.hold_growing(&mut strokes, &shape, &view);
+        strokes.iter().map(Stroke::length).collect()
+    };
+    drawn(vec![line(1, 100.0, 200.0, 50.0)]);
+    assert_eq!(drawn(vec![line(1, 100.0, 240.0, 50.0)]), [140.0]);
+    let new = vec![line(1, 100.0, 240.0, 50.0), line(2, 100.0, 120.0, 90.0)];
+    assert_eq!(drawn(new), [140.0, 20.0]);
+}
+
+#[test]
+fn an_end_that_meets_another_line_comes_at_once() {
+    let length = |x: f64| {
+        let (shape, view, mut state) = (sheet(0.0), view(0.0), HeldStrokes::default());
+        let across = || stroke(2, &[[x, 20.0], [x, 90.0]], false, 0.0);
+        state.hold_growing(
+            &mut vec![line(1, 100.0, 200.0, 50.0), across()],
+            &shape,
+            &view,
+        );
+        let mut strokes = vec![line(1, 100.0, 215.0, 50.0), across()];
+        state.hold_growing(&mut strokes, &shape, &view);
+        strokes[0].length()
+    };
+    assert_eq!(length(216.0), 115.0);
+    assert!(length(230.0) <= 108.0);
+}
+
 #[test]
 fn between_two_ends_a_line_went_on_or_ended() {
     let (shape, mut state) = (sheet(0.0), HeldStrokes::default());
@@ -235,6 +351,7 @@ fn between_two_ends_a_line_went_on_or_ended() {
     let known = state.in_view(&shape, &view(30.0));
     let tip = |x: f64, y: f64, out: [f64; 2]| Tip {
         place: [x + 30.0, y],
+        back_place: [x + 30.0 - 6.0 * out[0], y - 6.0 * out[1]],
         out,
         kind: Kind::Contour,
         is_hidden: false,

@@ -78,6 +78,8 @@ const _: () = assert!(size_of::<HeldEnd>() <= 64, "an end takes 64 bytes at most
 pub struct Tip {
     /// In the picture, in pixels.
     pub place: [f64; 2],
+    /// On its line, some pixels back from there: where the line is not longer its other end.
+    pub back_place: [f64; 2],
     /// Unit direction out of the line.
     pub out: [f64; 2],
     /// What the line is drawn as.
@@ -111,11 +113,11 @@ pub struct JointsInView<'a> {
 /// What two ends were in the frame before.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Bond {
-    /// One of them was not there, and no line ended near.
+    /// One of them was not there, and no line ended near; or nobody can tell.
     New,
     /// They were joined.
     Joined,
-    /// One of them was not there, and a line went on between them.
+    /// A line went on between them.
     Continued,
     /// They were there and not joined with each other, or a line ended there.
     Apart,
@@ -132,25 +134,45 @@ pub(crate) struct Bonds<'a> {
     /// The ends of the frame before.
     before: Vec<HeldEnd>,
     was_between: Option<WasBetween<'a>>,
+    /// Whether what was drawn counts as much as which ends were joined.
+    is_by_drawing: bool,
 }
 
 impl Bonds<'_> {
     /// What two ends were.
-    pub fn of(&self, [a, b]: [usize; 2]) -> Bond {
-        let Some(was_between) = self.was_between else {
-            return Bond::New;
-        };
-        let (was_a, was_b) = (self.was[a], self.was[b]);
-        if was_a != NONE && was_b != NONE {
-            return match self.before[was_a as usize].mate == was_b {
-                true => Bond::Joined,
-                false => Bond::Apart,
-            };
+    ///
+    /// Where doubles of lines are left, ends beside a line that is drawn are told apart by what they were joined with
+    /// alone. Later what was drawn tells as much, as of many ends in one place it is a guess which is which: where both
+    /// disagree the ends are new.
+    pub fn of(&self, pair: [usize; 2]) -> Bond {
+        let by_ends = self.by_ends(pair);
+        if by_ends != Bond::New && !self.is_by_drawing {
+            return by_ends;
         }
-        let (Some(tip_a), Some(tip_b)) = (self.tips[a], self.tips[b]) else {
+        match (self.by_drawing(pair), by_ends) {
+            (Bond::New, _) | (Bond::Continued, Bond::Joined) => by_ends,
+            (Bond::Continued, Bond::Apart) | (Bond::Apart, Bond::Joined) => Bond::New,
+            (by_drawing, _) => by_drawing,
+        }
+    }
+
+    /// What two ends were that were both there.
+    fn by_ends(&self, [a, b]: [usize; 2]) -> Bond {
+        let was = |end: usize| self.was.get(end).copied().filter(|was| *was != NONE);
+        match (was(a), was(b)) {
+            (Some(a), Some(b)) if self.before[a as usize].mate == b => Bond::Joined,
+            (Some(_), Some(_)) => Bond::Apart,
+            _ => Bond::New,
+        }
+    }
+
+    /// What was drawn between two ends.
+    fn by_drawing(&self, [a, b]: [usize; 2]) -> Bond {
+        let tip = |end: usize| self.tips.get(end).copied().flatten();
+        let (Some(was_between), Some(a), Some(b)) = (self.was_between, tip(a), tip(b)) else {
             return Bond::New;
         };
-        match was_between(&[tip_a, tip_b]) {
+        match was_between(&[a, b]) {
             DrawnBetween::Line => Bond::Continued,
             DrawnBetween::End => Bond::Apart,
             DrawnBetween::Nothing => Bond::New,
@@ -241,6 +263,7 @@ impl<'a> JointsInView<'a> {
             is: vec![NONE; before.len()],
             before: before.clone(),
             was_between: Some(self.was_between),
+            is_by_drawing: step != JoiningStep::Touching,
         };
         for (_, number, other) in fits {
             let (was, is) = (&mut found.was[number], &mut found.is[other as usize]);

@@ -103,6 +103,7 @@ pub(super) fn tips_of(runs: &[Run], ends: &[Option<End>]) -> Vec<Option<Tip>> {
         let (run, end) = (&runs[number / 2], end.as_ref()?);
         Some(Tip {
             place: end.place,
+            back_place: end.back_place,
             out: end.out,
             kind: run.kind,
             is_hidden: run.occluders > 0,
@@ -114,6 +115,8 @@ pub(super) fn tips_of(runs: &[Run], ends: &[Option<End>]) -> Vec<Option<Tip>> {
 /// An end of an open run; end `2 r` is the first point of run `r`, `2 r + 1` its last.
 pub(super) struct End {
     pub place: [f64; 2],
+    /// On the run, as far back as its direction is taken, or at its other end.
+    back_place: [f64; 2],
     depth: f64,
     /// Unit direction out of the run.
     pub out: [f64; 2],
@@ -140,8 +143,10 @@ impl End {
 
         // Leave out ends without one.
         let length = distance(inner.place, tip.place);
+        let share = (DIRECTION_PX / length).min(1.0);
         (length > 1e-6).then(|| Self {
             place: tip.place,
+            back_place: [0, 1].map(|i| tip.place[i] + (inner.place[i] - tip.place[i]) * share),
             depth: tip.depth,
             out: [0, 1].map(|i| (tip.place[i] - inner.place[i]) / length),
             is_dot: run.length() < DOT_PX,

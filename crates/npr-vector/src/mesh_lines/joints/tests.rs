@@ -220,3 +220,35 @@ fn new_ends_are_joined_where_a_line_went_on() {
         }
     }
 }
+
+#[test]
+fn what_was_drawn_counts_as_much_as_which_ends_were_joined() {
+    let (shape, view) = (HalfEdgeMesh::default(), view(0.0, false));
+    let runs = |gap: f64| {
+        let beside = straight(7, [100.0, 300.0], 0.0, 90.0);
+        in_the_open([Between::Gap.runs(gap / 20.0), vec![beside]].concat())
+    };
+    let joined = |held: &mut HeldJoints, gap: f64, between: DrawnBetween, step: JoiningStep| {
+        let was_between = |_: &[Tip; 2]| between;
+        let mut joints = held.in_view(&shape, &view, &was_between);
+        merge_held(runs(gap), FACING_PX, Some((step, &mut joints))).len() == 2
+    };
+    use DrawnBetween::{End, Line, Nothing};
+    for (first, step, between, most) in [
+        (5.0, JoiningStep::Facing, Line, 12.0),
+        (5.0, JoiningStep::Facing, End, 8.0),
+        (5.0, JoiningStep::Facing, Nothing, 12.0),
+        (8.5, JoiningStep::Facing, End, 0.67 * 8.0),
+        (8.5, JoiningStep::Facing, Line, 8.0),
+        (8.5, JoiningStep::Facing, Nothing, 0.67 * 8.0),
+        (5.0, JoiningStep::Touching, End, 12.0),
+        (8.5, JoiningStep::Touching, Line, 0.67 * 8.0),
+    ] {
+        for (gap, is_joined) in [(most - 0.2, true), (most + 0.2, false)] {
+            let mut held = HeldJoints::default();
+            assert_eq!(joined(&mut held, first, Nothing, step), first < 8.0);
+            let found = joined(&mut held, gap, between, step);
+            assert_eq!(found, is_joined, "{gap} px, {step:?}, {between:?}");
+        }
+    }
+}
