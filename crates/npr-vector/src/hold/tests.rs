@@ -300,7 +300,10 @@ proptest! {
                 prop_assert_eq!(strokes.len(), 1);
                 let places = || strokes[0].points.iter().map(|point| point.position[0]);
                 let [least, most] = [places().fold(f64::MAX, f64::min), places().fold(0.0, f64::max)];
-                let (moving, still) = if at_start { (200.0 - least, most - 300.0) } else { (most - 200.0, least - 100.0) };
+                let [moving, still] = match at_start {
+                    true => [200.0 - least, most - 300.0],
+                    false => [most - 200.0, least - 100.0],
+                };
                 let was = drawn.unwrap_or(target);
                 prop_assert!(still.abs() < 1e-9);
                 prop_assert!(moving <= target + 1e-9 && moving - was <= 8.0 + 1e-9, "{was} to {moving} of {target}");
