@@ -77,6 +77,12 @@ impl Panel {
         self.unfolded = (is_open, self.unfolded.1 + 1);
     }
 
+    /// Whether some texts hold, between them, every word that is searched for.
+    pub fn finds(&self, texts: &[&str]) -> bool {
+        let (search, text) = (self.search.to_lowercase(), texts.join(" ").to_lowercase());
+        search.split_whitespace().all(|word| text.contains(word))
+    }
+
     /// Shows the controls of a style with samples beside some, and gives what the user changed.
     pub fn show(&mut self, ui: &mut Ui, sheet: &Sheet, samples: &mut Swatches) -> Vec<Edit> {
         samples.in_sight.clear();

@@ -110,11 +110,7 @@ impl Studio {
     /// Lists the smoke that was dropped into the scene, with a way to take it out.
     pub(super) fn show_volumes(&mut self, ui: &mut Ui) {
         // Find what is searched for.
-        let search = self.panel.search.to_lowercase();
-        let is_hit = |name: &str| {
-            let text = format!("{WORDS} {name}").to_lowercase();
-            search.split_whitespace().all(|word| text.contains(word))
-        };
+        let is_hit = |name: &str| self.panel.finds(&[WORDS, name]);
         let volumes = &self.pose.volumes;
         if !volumes.iter().any(|name| is_hit(name)) {
             return;

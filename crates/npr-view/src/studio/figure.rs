@@ -16,11 +16,7 @@ impl Studio {
     /// Shows expressions, what the figure looks at, and its joints, where the scene has such a figure.
     pub(super) fn show_figure(&mut self, ui: &mut Ui) {
         // Find what is searched for.
-        let search = self.panel.search.to_lowercase();
-        let is_hit = |name: &str| {
-            let text = format!("{WORDS} {name}").to_lowercase();
-            search.split_whitespace().all(|word| text.contains(word))
-        };
+        let is_hit = |name: &str| self.panel.finds(&[WORDS, name]);
         let cast = &self.timeline.cast;
         let names = cast.expressions.iter().filter(|name| is_hit(name));
         let names: Vec<String> = names.cloned().collect();
@@ -34,7 +30,7 @@ impl Studio {
         let mut face = self.pose.face.clone();
         let mut touched = None;
         let title = RichText::new("Figure").strong().size(15.0);
-        let is_open = (!search.is_empty()).then_some(true);
+        let is_open = (!self.panel.search.is_empty()).then_some(true);
         CollapsingHeader::new(title).open(is_open).show(ui, |ui| {
             if can_look && show_look(ui, &mut face) {
                 touched = Some("look-at".to_owned());

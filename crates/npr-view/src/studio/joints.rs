@@ -37,11 +37,7 @@ fn bone_name(bone: &str) -> String {
 impl Studio {
     /// Bones of the scene that are searched for.
     pub(super) fn searched_bones(&self) -> Vec<String> {
-        let search = self.panel.search.to_lowercase();
-        let is_hit = |bone: &&String| {
-            let text = format!("{WORDS} {bone} {}", bone_name(bone)).to_lowercase();
-            search.split_whitespace().all(|word| text.contains(word))
-        };
+        let is_hit = |bone: &&String| self.panel.finds(&[WORDS, bone, &bone_name(bone)]);
         let bones = self.timeline.cast.bones.iter();
         bones.filter(is_hit).cloned().collect()
     }

@@ -10,12 +10,11 @@ const WORDS: &str = "times seconds passes frames how long";
 impl Studio {
     /// Shows how long pictures take, folded in unless it is searched for.
     pub(super) fn show_times(&mut self, ui: &mut Ui) {
-        let search = self.panel.search.to_lowercase();
-        if !search.split_whitespace().all(|word| WORDS.contains(word)) {
+        if !self.panel.finds(&[WORDS]) {
             return;
         }
         let title = RichText::new("Times").strong().size(15.0);
-        let is_open = (!search.is_empty()).then_some(true);
+        let is_open = (!self.panel.search.is_empty()).then_some(true);
         CollapsingHeader::new(title)
             .open(is_open)
             .show(ui, |ui| self.times.show(ui));
