@@ -187,6 +187,11 @@ impl Host for Desk {
         }
     }
 
+    fn smokes(&self) -> Vec<String> {
+        let names = npr_smoke::Source::ALL.iter();
+        names.map(|source| source.name().to_owned()).collect()
+    }
+
     fn layers(&self) -> Vec<Layer> {
         let named = |(name, text)| Layer { name, text };
         DebugLayer::all().map(named).collect()

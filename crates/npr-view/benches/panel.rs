@@ -20,6 +20,10 @@ impl Host for Idle {
         FileKind::Scene
     }
 
+    fn smokes(&self) -> Vec<String> {
+        Vec::new()
+    }
+
     fn layers(&self) -> Vec<Layer> {
         Vec::new()
     }

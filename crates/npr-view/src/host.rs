@@ -184,6 +184,9 @@ pub trait Host {
     /// The layers that can be shown in place of a picture.
     fn layers(&self) -> Vec<Layer>;
 
+    /// Names of smoke that needs no file, as `--volume` takes them.
+    fn smokes(&self) -> Vec<String>;
+
     /// Opens a scene in place of the present one, or a motion that its figure plays; [`News`] tells how that went.
     fn open(&mut self, path: &str);
 

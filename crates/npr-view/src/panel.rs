@@ -16,6 +16,7 @@ use toml::Value;
 
 use crate::beside::Swatches;
 use crate::sheet::Sheet;
+pub(crate) use controls::line_of_text;
 use controls::{UNFOLDED, control};
 pub(crate) use naming::{arrows, name_it, stepped};
 pub(crate) use samples::{SAMPLE_WIDTH, SAMPLES, Sample};

@@ -10,6 +10,7 @@ mod guides;
 mod joints;
 mod layers;
 mod lights;
+mod smoke;
 mod split;
 mod swatches;
 mod timeline;
@@ -473,7 +474,7 @@ impl Studio {
             .auto_shrink([false; 2])
             .show(ui, |ui| {
                 self.show_figure(ui);
-                self.show_volumes(ui);
+                self.show_smoke(ui);
                 let edits = self.panel.show(ui, &self.sheet, &mut self.swatches);
                 self.show_times(ui);
                 edits

@@ -96,6 +96,10 @@ impl Host for Easel {
         }
     }
 
+    fn smokes(&self) -> Vec<String> {
+        ["plume", "cloud"].map(str::to_owned).to_vec()
+    }
+
     fn layers(&self) -> Vec<Layer> {
         let named = |name: &str| Layer {
             name: name.to_owned(),

@@ -264,7 +264,7 @@ fn text(ui: &mut Ui, key: &str, now: &Value) -> Option<Value> {
 }
 
 /// A line of text that counts once it is left, or finished with Enter.
-fn line_of_text(ui: &mut Ui, key: &str, now: &str, width: f32) -> Option<String> {
+pub(crate) fn line_of_text(ui: &mut Ui, key: &str, now: &str, width: f32) -> Option<String> {
     let id = ui.make_persistent_id((key, "text"));
     let kept = ui.data(|data| data.get_temp::<String>(id));
     let mut text = kept.unwrap_or_else(|| now.to_owned());

@@ -1,12 +1,12 @@
 //! Files that are dropped on the window: styles and scenes are opened, and of pictures and smoke it is asked what they
 //! are for.
 
-use egui::{Button, CollapsingHeader, Id, Modal, RichText, Ui};
+use egui::{Button, Id, Modal, RichText, Ui};
 use toml::Value;
 
 use super::Studio;
 use crate::host::FileKind;
-use crate::panel::{Edit, name_it};
+use crate::panel::Edit;
 
 /// What a picture can be for: the key that takes its path, and its words.
 const PICTURE_USES: [(&str, &str); 4] = [
@@ -15,9 +15,6 @@ const PICTURE_USES: [(&str, &str); 4] = [
     ("ink.hatch.image", "Hatching"),
     ("shade.ramp_image", "Ramp of tones"),
 ];
-
-/// What searches find the smoke of a scene by, besides the names of files.
-const WORDS: &str = "smoke volume";
 
 /// What is done with a file.
 enum Choice {
@@ -49,7 +46,7 @@ impl Studio {
     }
 
     /// Whether a scene is shown that is no smoke alone.
-    fn holds_surfaces(&self) -> bool {
+    pub(super) fn holds_surfaces(&self) -> bool {
         !self.scene.is_empty() && self.host.kind(&self.scene) != FileKind::Volume
     }
 
@@ -105,47 +102,5 @@ impl Studio {
             Choice::Leave => {}
         }
         self.history.close();
-    }
-
-    /// Lists the smoke that was dropped into the scene, with a way to take it out.
-    pub(super) fn show_volumes(&mut self, ui: &mut Ui) {
-        // Find what is searched for.
-        let is_hit = |name: &str| self.panel.finds(&[WORDS, name]);
-        let volumes = &self.pose.volumes;
-        if !volumes.iter().any(|name| is_hit(name)) {
-            return;
-        }
-
-        // Show it.
-        let mut removed = None;
-        let title = RichText::new("Smoke in the scene").strong().size(15.0);
-        CollapsingHeader::new(title)
-            .default_open(true)
-            .show(ui, |ui| {
-                for (number, name) in volumes.iter().enumerate().filter(|(_, name)| is_hit(name)) {
-                    ui.horizontal(|ui| {
-                        ui.add(egui::Label::new(name).truncate());
-                        let out = ui.add(Button::new("×").frame(false));
-                        name_it(&out, &format!("take out {name}"));
-                        if out.on_hover_text("take it out of the scene").clicked() {
-                            removed = Some(number);
-                        }
-                    });
-                }
-            });
-        if let Some(number) = removed {
-            let mut volumes = volumes.clone();
-            volumes.remove(number);
-            self.take_volumes(volumes, ui);
-        }
-    }
-
-    /// Lets other smoke stand in the scene, which is a step to undo.
-    fn take_volumes(&mut self, volumes: Vec<String>, ui: &Ui) {
-        self.history.close();
-        self.history.note_volumes(&self.pose);
-        self.history.close();
-        self.pose.volumes = volumes;
-        self.changed(ui);
     }
 }

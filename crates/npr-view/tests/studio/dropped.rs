@@ -78,6 +78,8 @@ fn smoke_stands_in_the_scene_until_it_is_taken_out() {
     );
 
     // Take one out, and bring it back.
+    harness.get_by_label("Smoke in the scene").click();
+    harness.run();
     click(&mut harness, "take out /b/a.vdb");
     assert_eq!(volumes(&easel), ["/b/c.vdb"]);
     for (label, wanted) in [
@@ -124,5 +126,42 @@ fn nothing_is_done_with_a_file_that_is_left() {
         }
         assert!(harness.query_by_label("Cancel").is_none());
         assert_eq!(easel.0.borrow().orders.len(), before);
+    }
+}
+
+#[test]
+fn smoke_without_a_file_stands_beside_what_the_view_turns_about() {
+    let (mut harness, easel) = showing("a.glb");
+    harness.get_by_label("Smoke in the scene").click();
+    harness.run();
+    harness.get_by_label("Add smoke").click();
+    harness.run();
+    harness.get_by_label("plume").click();
+    harness.run();
+    let volumes = |easel: &Easel| easel.0.borrow().orders.last().unwrap().pose.volumes.clone();
+    // The view is 3.64 high there.
+    assert_eq!(volumes(&easel), ["plume@1.27,-0.91,0*1.82"]);
+
+    // What it is and where it stands is a text to change.
+    harness.get_by_label("smoke in the scene 1").focus();
+    harness.run();
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    harness.event(egui::Event::Text("cloud@0,0,0".to_owned()));
+    harness.run();
+    assert_eq!(volumes(&easel), ["plume@1.27,-0.91,0*1.82"]);
+    harness.key_press(Key::Enter);
+    harness.run();
+    assert_eq!(volumes(&easel), ["cloud@0,0,0"]);
+    click(&mut harness, "Undo");
+    assert_eq!(volumes(&easel), ["plume@1.27,-0.91,0*1.82"]);
+}
+
+#[test]
+fn smoke_alone_takes_no_other_smoke() {
+    for (scene, count) in [("a.vdb", 0), ("a.glb", 1)] {
+        let (mut harness, _) = showing(scene);
+        harness.state_mut().search("volume source");
+        harness.run();
+        assert_eq!(harness.query_all_by_label("Add smoke").count(), count);
     }
 }

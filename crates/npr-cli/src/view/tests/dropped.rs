@@ -111,3 +111,20 @@ fn a_picture_that_is_dropped_serves_every_use() {
         check_command(&shop, &order, &picture);
     }
 }
+
+#[test]
+fn every_smoke_that_needs_no_file_can_be_drawn_beside_a_box() {
+    let mut shop = Shop::new("--backend cpu");
+    let bare = order(&[], Some(aside(false)));
+    let before = shop.picture(&bare);
+    for (change, name) in (2..).zip(shop.desk.smokes()) {
+        let mut with_smoke = Order {
+            change,
+            ..bare.clone()
+        };
+        with_smoke.pose.volumes = vec![format!("{name}@0.5,1,0.5*1.5")];
+        let picture = shop.picture(&with_smoke);
+        assert!(picture.rgba != before.rgba, "{name}");
+        check_command(&shop, &with_smoke, &picture);
+    }
+}
