@@ -41,8 +41,19 @@ press() { at "$@"; xdotool click 1; sleep 0.3; }
 # Drag what the pointer is on.
 drag() { xdotool mousedown 1; for _ in $(seq 12); do xdotool mousemove_relative -- "$1" "$2"; sleep 0.06; done; }
 search() { press Search; xdotool key ctrl+a BackSpace; xdotool type "$1"; sleep 0.6; }
-# Wait for the full picture; a click on nothing takes away what else is told.
-full() { sleep 0.7; find "(scene|film)\.[a-z]+   [0-9]+ × [0-9]+, [0-9.]+ s, .*" --text --wait 60; }
+# Wait for the full picture after a change: what was told of the one before stays until a draft is drawn. Two that took
+# as long are told apart by nothing, so that it goes on after some seconds.
+told_before=
+full() {
+  sleep 0.7
+  for _ in $(seq 20); do
+    told_now=$(find "(scene|film)\.[a-z]+   [0-9]+ × [0-9]+, [0-9.]+ s, .*" --text --wait 60)
+    if [ "$told_now" != "$told_before" ]; then break; fi
+    sleep 0.4
+  done
+  told_before=$told_now
+  echo "$told_now"
+}
 told() { find "$1" --text --wait 60; }
 open_window() {
   "$npr" view "$@" --backend "$backend" >>view.log 2>&1 &
