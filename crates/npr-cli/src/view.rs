@@ -178,12 +178,16 @@ impl Host for Desk {
 
     fn kind(&self, path: &str) -> FileKind {
         let path = Path::new(path);
-        let has_one_of = |endings: &[&str]| endings.iter().any(|ending| has_ending(path, ending));
-        match () {
-            () if has_ending(path, "toml") => FileKind::Style,
-            () if has_volume_name(path) => FileKind::Volume,
-            () if has_one_of(&["png", "jpg", "jpeg"]) => FileKind::Picture,
-            () => FileKind::Scene,
+        let pictures = ["png", "jpg", "jpeg"];
+        let is_picture = pictures.iter().any(|ending| has_ending(path, ending));
+        if has_ending(path, "toml") {
+            FileKind::Style
+        } else if has_volume_name(path) {
+            FileKind::Volume
+        } else if is_picture {
+            FileKind::Picture
+        } else {
+            FileKind::Scene
         }
     }
 

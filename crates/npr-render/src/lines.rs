@@ -6,6 +6,7 @@ mod colors;
 mod expression;
 mod film;
 mod finder;
+mod framing;
 mod guides;
 mod image;
 mod laid;
