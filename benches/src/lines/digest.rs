@@ -57,6 +57,7 @@ mod tests {
             occluders: 0,
             surface: 0,
             closed: false,
+            part: None,
             points: vec![StrokePoint::default(); 2],
         };
         let mut drawing = Drawing {

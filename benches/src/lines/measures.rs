@@ -371,6 +371,7 @@ mod tests {
             occluders: 0,
             surface: 0,
             closed: false,
+            part: None,
             points: points.iter().map(point).collect(),
         }
     }

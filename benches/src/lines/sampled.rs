@@ -122,6 +122,7 @@ fn stroke_of(points: &[InkPoint]) -> Stroke {
         occluders: 0,
         surface: 0,
         closed: false,
+        part: None,
         points: points.collect(),
     }
 }

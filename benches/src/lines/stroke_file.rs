@@ -62,6 +62,7 @@ fn stroke(stroke: &FileStroke) -> Result<Stroke, String> {
         occluders: u32::from(stroke.visibility.as_deref() == Some("hidden")),
         surface: 0,
         closed: stroke.closed,
+        part: None,
         points: stroke.points.iter().map(point).collect::<Result<_, _>>()?,
     })
 }

@@ -50,6 +50,7 @@ pub fn stroke(places: impl IntoIterator<Item = [f64; 2]>, closed: bool) -> Strok
         occluders: 0,
         surface: 0,
         closed,
+        part: None,
         points: places.into_iter().map(point).collect(),
     }
 }

@@ -37,6 +37,7 @@ fn stroke(id: u64, length: usize) -> Stroke {
         occluders: 0,
         surface: 0,
         closed: false,
+        part: None,
         points: points.collect(),
     }
 }

@@ -46,6 +46,7 @@ fn spiral(number: u32) -> Stroke {
         occluders: 0,
         surface: 0,
         closed: false,
+        part: None,
         points: (0..=400).map(point).collect(),
     }
 }

@@ -60,6 +60,7 @@ pub fn centreline_drawing(lines: &Centrelines) -> Drawing {
             occluders: 0,
             surface: 0,
             closed: stroke.closed,
+            part: None,
             points: points.collect(),
         }
     });

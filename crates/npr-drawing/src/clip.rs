@@ -143,6 +143,7 @@ mod tests {
             occluders: 0,
             surface: 0,
             closed,
+            part: None,
             points: points
                 .iter()
                 .map(|p| StrokePoint {

@@ -29,7 +29,8 @@ pub struct Dash {
     /// dash, and rings have a whole number of patterns.
     pub fit: bool,
     /// Whether a pattern that is not stretched lies at multiples of its length in the texture coordinate `u`, so that
-    /// dashes hold where `u` does; else it begins where strokes do.
+    /// dashes hold where `u` does; else it begins where strokes do, unless they are parts of a line, whose pattern goes
+    /// on behind what hides it.
     pub by_texture: bool,
 }
 
@@ -63,7 +64,8 @@ impl Dash {
     fn cut(&self, stroke: &Stroke) -> Option<Vec<Stroke>> {
         let (pairs, period) = self.period()?;
         let line = Measured::new(stroke).filter(|line| line.length() >= period)?;
-        let inked = match (self.fit, self.by_texture) {
+        let by_texture = self.by_texture || stroke.part.is_some();
+        let inked = match (self.fit, by_texture) {
             (true, _) => fitted(&pairs, period, &line),
             (false, true) => along_texture(&pairs, period, &line),
             (false, false) => from_start(&pairs, &line),
@@ -71,6 +73,7 @@ impl Dash {
         let dashes = inked.into_iter().map(|[from, to]| Stroke {
             points: line.part(from, to),
             closed: false,
+            part: stroke.part.map(|part| part.alone(to - from)),
             ..*stroke
         });
         Some(dashes.collect())
@@ -87,7 +90,8 @@ impl Dash {
             return own;
         }
         // Stretched patterns are shorter by a third at most, those along a texture by half.
-        let most = if self.by_texture { SQUEEZED_MOST } else { 1.5 };
+        let by_texture = self.by_texture || stroke.part.is_some();
+        let most = if by_texture { SQUEEZED_MOST } else { 1.5 };
         let periods = (most * length / period) as u64 + 2;
         own + periods * 2 * pairs.len() as u64
     }

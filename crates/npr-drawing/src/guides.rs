@@ -60,6 +60,7 @@ pub fn cut_at_guides(
         let part = |id: u64, from: f64, to: f64| Stroke {
             id,
             closed: false,
+            part: None,
             points: line.part(from, to),
             ..*stroke
         };

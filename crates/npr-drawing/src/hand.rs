@@ -1,6 +1,6 @@
 //! Strokes as a hand draws them: they sway a little, and are drawn more than once.
 //!
-//! A stroke sways by a smooth function of the way along it and of its id, so it holds still from run to run. Sideways
+//! A stroke sways by a smooth function of the way along it and of its line's id, so it holds still from run to run. Sideways
 //! and along: displacements are vectors, not distances along a normal, so corners stay as sharp as they are.
 
 use crate::arc::{Measured, has_course, measure_open};
@@ -71,7 +71,7 @@ pub struct Hand {
     /// Greatest distance, in pixels, of copies from the line, before they sway.
     pub spread_px: f64,
     /// Whether an open line sways by where its texture coordinate `u` is 0, so that its waves hold where `u` does; else
-    /// by where it starts.
+    /// by where it starts, unless it is a part of a line, whose waves go on behind what hides it.
     pub by_texture: bool,
 }
 
@@ -159,8 +159,9 @@ pub fn draw_by_hand<'a>(
         .zip(&hands)
         .map(|((stroke, length), hand)| {
             let hand = hand.filter(|hand| hand.sways() && has_course(*length))?;
-            let seed = Seed::new(stroke.id, 0);
-            let first = stroke.points.first().filter(|_| hand.by_texture);
+            let seed = Seed::new(stroke.line(), 0);
+            let by_texture = hand.by_texture || stroke.part.is_some();
+            let first = stroke.points.first().filter(|_| by_texture);
             let from = first.map_or(0.0, |first| first.u);
             Some(Sway::new(hand, (from, *length), seed, stroke.closed))
         })

@@ -52,12 +52,12 @@ pub(crate) struct Laid {
 }
 
 impl Laid {
-    /// The image begins anywhere and on either side, by the stroke's id, so that strokes are not alike; on a ring it
-    /// closes.
+    /// The image begins anywhere and on either side, by the id of the stroke's line, so that lines are not alike; on a
+    /// ring it closes.
     pub fn new(stroke: &Stroke, lay: BrushLay, full: f64) -> Self {
         let length = stroke.length();
-        let first = stroke.points.first().map_or(0.0, |point| point.u);
-        let chance = hash(stroke.id as u32, (stroke.id >> 32) as u32, 0);
+        let line = stroke.line();
+        let chance = hash(line as u32, (line >> 32) as u32, 0);
         let (start, per_px) = match lay.images {
             Images::ByLength(image) => {
                 let images = length / image.max(LEAST_IMAGE_PX);
@@ -67,7 +67,7 @@ impl Laid {
                 };
                 (f64::from(unit(chance)), whole / length)
             }
-            Images::Once | Images::Stamps(_) => (-first / length, 1.0 / length),
+            Images::Once | Images::Stamps(_) => once_over(stroke, length),
         };
         let per_px = if per_px.is_finite() { per_px } else { 0.0 };
         let is_mirrored = matches!(lay.images, Images::ByLength(_)) && chance & 1 != 0;
@@ -111,6 +111,21 @@ impl Laid {
             pressure: self.pressure(half_width),
         }
     }
+}
+
+/// Where one image over the whole line of a stroke of some length begins, and how far it moves per pixel.
+fn once_over(stroke: &Stroke, length: f64) -> (f64, f64) {
+    let [first, last] = match &stroke.points[..] {
+        [first, .., last] => [first.u, last.u],
+        _ => [0.0; 2],
+    };
+    let Some(part) = stroke.part else {
+        return (-first / length, 1.0 / length);
+    };
+    // A texture that runs against the stroke begins with the end of the image.
+    let sign = if last < first { -1.0 } else { 1.0 };
+    let per_px = 1.0 / part.length_px;
+    (sign * part.share_at(0.0) - first * per_px, per_px)
 }
 
 /// Half the width of a stroke at a point, at most [`WIDEST`].
@@ -166,7 +181,7 @@ pub fn ink_points(
         // Lay its brush on it.
         let lay = lay_of(stroke);
         let laid = Laid::new(stroke, lay, widest);
-        let (has_image, id) = (lay.brush > 0, stroke.id);
+        let (has_image, id) = (lay.brush > 0, stroke.line());
         let stamps = match lay.images {
             Images::Stamps(stamps) if has_image => Some(stamps),
             _ => None,
@@ -235,6 +250,7 @@ mod tests {
             occluders: 0,
             surface: 0,
             closed,
+            part: None,
             points: points.collect(),
         };
         Drawing {

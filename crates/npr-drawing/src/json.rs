@@ -2,11 +2,13 @@
 //!
 //! One stroke per line of text. Pixels are written to a thousandth, depth, texture coordinate and world with seven
 //! digits. Flat colour is not part of it, and colours of lines only of strokes that change theirs: `colors`, four
-//! bytes a point, sRGB and alpha.
+//! bytes a point, sRGB and alpha. Strokes that are parts of a line which goes on behind something have a key `part`: the
+//! id of the `line`, how many pixels of it lie before the first point (`from`) and before the last (`to`), and its whole
+//! `length`, with what is hidden between its parts.
 
 use npr_core::decoding::guard;
 use npr_core::number::{push_fixed, push_significant};
-use npr_vector::stroke::{Drawing, Kind, Stroke, StrokePoint, StrokeSurface};
+use npr_vector::stroke::{Drawing, Kind, LinePart, Stroke, StrokePoint, StrokeSurface};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
@@ -71,10 +73,23 @@ fn push_stroke(text: &mut String, stroke: &Stroke, surface: &StrokeSurface) -> b
     let [object, material] = [&surface.object, &surface.material].map(|name| quoted(name));
     *text += &format!(
         "{{\"id\":{id},\"kind\":\"{kind}\",\"visibility\":\"{visibility}\",\"occluders\":{occluders},\
-         \"object\":{object},\"material\":{material},\"closed\":{closed},\"points\":["
+         \"object\":{object},\"material\":{material},\"closed\":{closed},"
     );
 
+    // Write which part of its line it is.
+    if let Some(part) = stroke.part.filter(|part| FilePart::of(part).is_inside()) {
+        let [start, end] = part.ends_px;
+        *text += &format!("\"part\":{{\"line\":{},\"from\":", part.line);
+        push_fixed(text, start, 3);
+        text.push_str(",\"to\":");
+        push_fixed(text, end, 3);
+        text.push_str(",\"length\":");
+        push_fixed(text, part.length_px, 3);
+        text.push_str("},");
+    }
+
     // Write its points in the picture, then in the world.
+    text.push_str("\"points\":[");
     push_list(text, &points, |text, p| {
         push_fixed(text, p.position[0], 3);
         text.push(',');
@@ -173,10 +188,39 @@ struct FileStroke {
     object: String,
     material: String,
     closed: bool,
+    #[serde(default)]
+    part: Option<FilePart>,
     points: Vec<[f64; 5]>,
     world: Vec<[f32; 3]>,
     #[serde(default)]
     colors: Option<Vec<[u8; 4]>>,
+}
+
+#[derive(Deserialize, Clone, Copy)]
+#[serde(deny_unknown_fields)]
+struct FilePart {
+    line: u64,
+    from: f64,
+    to: f64,
+    length: f64,
+}
+
+impl FilePart {
+    fn of(part: &LinePart) -> Self {
+        let [from, to] = part.ends_px;
+        Self {
+            line: part.line,
+            from,
+            to,
+            length: part.length_px,
+        }
+    }
+
+    /// Whether it is inside of its line.
+    fn is_inside(&self) -> bool {
+        let is_on = |px: f64| (0.0..=self.length).contains(&px);
+        self.length.is_finite() && self.length > 0.0 && is_on(self.from) && is_on(self.to)
+    }
 }
 
 #[derive(Deserialize, PartialEq)]
@@ -251,6 +295,8 @@ fn check(stroke: &FileStroke) -> Result<(), &'static str> {
         Err("as many colours as points are needed")
     } else if !finite {
         Err("a number is out of range")
+    } else if stroke.part.is_some_and(|part| !part.is_inside()) {
+        Err("a part lies outside of its line")
     } else if !agrees {
         Err("visibility and occluders disagree")
     } else {
@@ -300,6 +346,11 @@ fn stroke_of(stroke: FileStroke, names: &mut Names) -> Stroke {
             .unwrap_or(u32::from(stroke.visibility == Visibility::Hidden)),
         surface: names.surface(stroke.object, stroke.material),
         closed: stroke.closed,
+        part: stroke.part.map(|part| LinePart {
+            line: part.line,
+            ends_px: [part.from, part.to],
+            length_px: part.length,
+        }),
         points: points
             .map(|(i, ([x, y, depth, width, u], world))| StrokePoint {
                 position: [*x, *y],
@@ -356,6 +407,11 @@ mod tests {
                         occluders,
                         surface,
                         closed,
+                        part: colored.then_some(LinePart {
+                            line: !id,
+                            ends_px: [60.125, f64::from(surface)],
+                            length_px: 80.25,
+                        }),
                         points: points
                             .into_iter()
                             .map(|(position, (depth, width, u), world, color)| StrokePoint {
@@ -385,6 +441,7 @@ mod tests {
             prop_assert_eq!(back.strokes.len(), drawing.strokes.len());
             for (a, b) in drawing.strokes.iter().zip(&back.strokes) {
                 prop_assert_eq!((a.id, a.kind, a.occluders, a.closed), (b.id, b.kind, b.occluders, b.closed));
+                prop_assert_eq!(a.part, b.part);
                 let [named, also] = [(&drawing, a), (&back, b)].map(|(d, s)| {
                     let surface = &d.surfaces[s.surface as usize];
                     (&surface.object, &surface.material)
@@ -417,6 +474,7 @@ mod tests {
             occluders: 0,
             surface: 99,
             closed: false,
+            part: None,
             points,
         };
         let drawing = Drawing {
@@ -444,5 +502,10 @@ mod tests {
         let short = r#"{"version":1,"size":[1,1],"strokes":[{"id":1,"kind":"crease","visibility":"visible",
             "object":"","material":"","closed":false,"points":[[1,2,3,4,5]],"world":[[1,2,3]]}]}"#;
         assert_eq!(wrong(short), "stroke 0: fewer than two points");
+        let part =
+            r#""closed":false,"part":{"line":1,"from":0,"to":9,"length":8},"points":[[1,2,3,4,5],"#;
+        let outside = short.replace(r#""closed":false,"points":["#, part);
+        let outside = outside.replace(r#""world":["#, r#""world":[[1,2,3],"#);
+        assert_eq!(wrong(&outside), "stroke 0: a part lies outside of its line");
     }
 }

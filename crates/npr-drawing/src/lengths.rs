@@ -46,6 +46,7 @@ fn parts_of(stroke: &Stroke, line: &Measured, longest_px: f64) -> Vec<Stroke> {
     let parts = (0..count as u32).map(|number| Stroke {
         id: id_of(stroke.id, number),
         closed: false,
+        part: None,
         points: line.part(way(number), way(number + 1)),
         ..*stroke
     });

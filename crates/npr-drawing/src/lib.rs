@@ -21,6 +21,7 @@
 //!     occluders: 0,
 //!     surface: 0,
 //!     closed: false,
+//!     part: None,
 //!     points: vec![at(10.0, 1.0), at(50.0, 6.0), at(90.0, 1.0)],
 //! };
 //! let black = StrokeSurface { line_color: [0, 0, 0, 255], ..StrokeSurface::default() };

@@ -74,7 +74,7 @@ impl Curve {
 /// What strokes are pressed by: factors on their width.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pressure {
-    /// Along open strokes, from 0 at their start to 1 at their end.
+    /// Along open strokes, from 0 at their start to 1 at their end; along parts of a line, from its start to its end.
     pub along: Curve,
     /// Over depth, from 0 at the first depth to 1 at the second, in scene units along the view axis.
     pub depth: Curve,
@@ -121,6 +121,8 @@ fn press(stroke: &mut Stroke, pressure: &Pressure) {
     let is_open = !stroke.closed && length.is_finite() && length > 0.0;
     let factor = |point: &StrokePoint, along: f64| {
         let share = is_open.then(|| along / length);
+        let of_line = |share: f64| stroke.part.map_or(share, |part| part.share_at(share));
+        let share = share.map(of_line);
         pressure.factor(share, point.depth)
     };
     let pressed = |point: StrokePoint, along: f64| StrokePoint {
@@ -185,6 +187,7 @@ mod tests {
             occluders: 0,
             surface: 0,
             closed,
+            part: None,
             points: points.collect(),
         }
     }

@@ -246,7 +246,7 @@ fn prints_of(stroke: &Stroke, lay: BrushLay, own: [u8; 4], parts: Vec<Part>) -> 
         keep_apart(&mut points);
         match lay.images {
             Images::Stamps(stamps) => {
-                let pairs = stamps.along(&points, is_closed, stroke.id, &inked);
+                let pairs = stamps.along(&points, is_closed, stroke.line(), &inked);
                 let prints = pairs.as_chunks().0.iter().map(|ends| Print {
                     form: Form::Stamp,
                     ends: *ends,

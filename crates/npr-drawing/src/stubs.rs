@@ -80,7 +80,10 @@ pub fn remove_stubs(
     strokes.retain_mut(|stroke| match lines.next().flatten() {
         Some(line) if line.is_gone() => false,
         Some(line) if line.is_cut() => {
-            stroke.points = line.course.part(line.range[0], line.range[1]);
+            let [from, to] = line.range;
+            let cut_px = [from, line.course.length() - to];
+            stroke.part = stroke.part.map(|part| part.shortened(cut_px));
+            stroke.points = line.course.part(from, to);
             true
         }
         _ => true,

@@ -28,6 +28,7 @@ pub(crate) fn stroke_of(places: &[[f64; 2]]) -> Stroke {
         occluders: 0,
         surface: 0,
         closed: false,
+        part: None,
         points: points.collect(),
     }
 }

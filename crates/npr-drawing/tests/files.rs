@@ -28,6 +28,7 @@ fn stroke(id: u64, kind: Kind, surface: u32, closed: bool, points: Vec<StrokePoi
         occluders: 0,
         surface,
         closed,
+        part: None,
         points,
     }
 }

@@ -129,6 +129,7 @@ fn drawing() -> Drawing {
             occluders: 0,
             surface: 0,
             closed,
+            part: None,
             points: points.collect(),
         }
     };

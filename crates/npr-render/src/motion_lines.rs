@@ -56,6 +56,7 @@ pub(crate) fn find_motion_lines(
             occluders: 0,
             surface,
             closed: false,
+            part: None,
             points,
         });
         drawing.strokes.extend(strokes);

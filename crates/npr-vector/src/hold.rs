@@ -4,7 +4,8 @@
 //! `remembered` keeps samples of a frame's strokes by their place on the surface, and finds them again in the next
 //! view. Every sample of a new stroke votes with the remembered one that it is (`votes`): for a way to run, for an
 //! identity (`identity`), which also keeps its place in the order (`order`), and for a shift of the texture
-//! coordinate (`phase`). Closed strokes start where they did (`seam`).
+//! coordinate (`phase`). Closed strokes start where they did (`seam`). Strokes that are parts of one line do so together
+//! (`parts`).
 //!
 //! Differs: the paper fits a slope to the votes of a run, too; here a pixel along a stroke stays a pixel of its
 //! texture, so that dashes and stamps never stretch. Where parts of one stroke had textures of their own these stay,
@@ -14,6 +15,7 @@ mod between;
 mod growth;
 mod identity;
 mod order;
+mod parts;
 mod phase;
 mod remembered;
 mod seam;
@@ -22,7 +24,7 @@ mod votes;
 use crate::mesh_lines::run::distance;
 use crate::mesh_lines::{DrawnBetween, Tip};
 use crate::project::Projector;
-use crate::stroke::{Stroke, StrokePoint};
+use crate::stroke::{LinePart, Stroke, StrokePoint};
 use between::drawn_between;
 use glam::DVec3;
 use identity::settle_ids;
@@ -105,7 +107,8 @@ impl HeldStrokes {
     /// `shape` is the surface in the pose of this frame, whatever pose it had before: its vertices, edges and faces
     /// keep their numbers. A stroke runs the way that most of its samples ran, and has the identity that most of them
     /// had, unless another has more of it; what is new keeps its own, made of mesh edges. `u` is shifted as a whole
-    /// where all samples agree, else by parts of 8 pixels and more. Strokes keep their order, and new ones come behind
+    /// where all samples agree, else by parts of 8 pixels and more; that of a part of a line that nobody saw before goes on
+    /// from the part beside it. Strokes keep their order, and new ones come behind
     /// those that they came behind. After a cut nothing is taken over: where the camera turns by more than 30 degrees,
     /// or fewer than a fifth of the samples find one of the frame before.
     ///
@@ -177,6 +180,7 @@ impl HeldStrokes {
                 votes.into_iter().flatten().collect()
             })
             .collect();
+        parts::settle(strokes, &tallies, &self.lines);
         settle_ids(strokes, &tallies, &self.lines);
         order::keep(strokes, &self.lines);
 
@@ -226,6 +230,7 @@ impl HeldStrokes {
     ) {
         let line = Line {
             id: stroke.id,
+            whole_id: stroke.line(),
             kind: stroke.kind,
             is_hidden: !stroke.is_visible(),
             around_px: if stroke.closed {
@@ -262,6 +267,7 @@ fn reverse(stroke: &mut Stroke) {
         true => stroke.points[1..].reverse(),
         false => stroke.points.reverse(),
     }
+    stroke.part = stroke.part.map(LinePart::reversed);
     measure(&mut stroke.points);
 }
 

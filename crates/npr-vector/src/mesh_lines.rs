@@ -19,7 +19,9 @@ pub mod graph;
 pub mod intersect;
 mod joints;
 mod line;
+pub(crate) mod line_parts;
 mod line_settings;
+
 mod merge;
 pub(crate) mod near;
 mod overshoot;

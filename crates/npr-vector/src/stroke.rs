@@ -36,11 +36,82 @@ pub struct Stroke {
     pub surface: u32,
     /// The last point runs on to the first, which is not repeated.
     pub closed: bool,
+    /// Which part of its line it is, where the line goes on behind something; `None` where the stroke is all of it.
+    pub part: Option<LinePart>,
     /// At least two, or three of a closed stroke; neighbours differ.
     pub points: Vec<StrokePoint>,
 }
 
+/// The part of a line that a stroke is, where something hides what lies between its parts.
+///
+/// The line is one stroke of a pen: its parts share the chance that textures, sways and stamps are made of, textures
+/// run on behind what hides the line, and the pen is pressed as along the whole of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LinePart {
+    /// Identity of the line: that of one of its strokes.
+    pub line: u64,
+    /// Pixels from the start of the line to the first point of the stroke and to its last one, along the line and behind
+    /// what hides it. The second is less than the first where the stroke runs against the line.
+    pub ends_px: [f64; 2],
+    /// Length of the whole line in the picture, from its first seen point to its last, in pixels.
+    pub length_px: f64,
+}
+
+impl LinePart {
+    /// The same of the stroke travelled the other way.
+    pub(crate) fn reversed(self) -> Self {
+        let [start, end] = self.ends_px;
+        Self {
+            ends_px: [end, start],
+            ..self
+        }
+    }
+
+    /// The same of a line that runs the other way.
+    pub(crate) fn of_reversed_line(self) -> Self {
+        Self {
+            ends_px: self.ends_px.map(|px| self.length_px - px),
+            ..self
+        }
+    }
+
+    /// Whether the stroke runs against the line.
+    pub(crate) fn is_against(&self) -> bool {
+        self.ends_px[1] < self.ends_px[0]
+    }
+
+    /// The same of a stroke that has lost some pixels at its start and at its end.
+    pub fn shortened(self, by_px: [f64; 2]) -> Self {
+        let [start, end] = self.ends_px;
+        let along = if self.is_against() { -1.0 } else { 1.0 };
+        Self {
+            ends_px: [start + along * by_px[0], end - along * by_px[1]],
+            ..self
+        }
+    }
+
+    /// The same line, of which the stroke is a part that is drawn as if it were all of it.
+    pub fn alone(self, length_px: f64) -> Self {
+        Self {
+            ends_px: [0.0, length_px],
+            length_px,
+            ..self
+        }
+    }
+
+    /// Share of the line that lies before the place at a share of the stroke, 0..1.
+    pub fn share_at(&self, share: f64) -> f64 {
+        let [start, end] = self.ends_px;
+        (start + (end - start) * share) / self.length_px
+    }
+}
+
 impl Stroke {
+    /// Identity of the line that it is, or is a part of.
+    pub fn line(&self) -> u64 {
+        self.part.map_or(self.id, |part| part.line)
+    }
+
     /// Whether nothing lies in front of it.
     pub fn is_visible(&self) -> bool {
         self.occluders == 0
@@ -112,6 +183,13 @@ impl Drawing {
     /// The same drawing as that of a picture `by` times as large, in its pixels.
     pub fn scaled(mut self, by: f64) -> Self {
         self.size = self.size.map(|side| (f64::from(side) * by).round() as u32);
+        for stroke in &mut self.strokes {
+            stroke.part = stroke.part.map(|part| LinePart {
+                ends_px: part.ends_px.map(|px| px * by),
+                length_px: part.length_px * by,
+                ..part
+            });
+        }
         for point in self
             .strokes
             .iter_mut()

@@ -55,6 +55,7 @@ fn stroke(view: &View, world: &[[f32; 3]], closed: bool) -> Stroke {
         occluders: 0,
         surface: 0,
         closed,
+        part: None,
         points: points.collect(),
     }
 }

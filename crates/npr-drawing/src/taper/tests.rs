@@ -28,6 +28,7 @@ fn stroke(places: &[[f64; 2]], width: f64) -> Stroke {
         occluders: 0,
         surface: 0,
         closed: false,
+        part: None,
         points: points.collect(),
     }
 }

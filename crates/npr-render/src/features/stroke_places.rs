@@ -204,6 +204,7 @@ mod tests {
             occluders: 0,
             surface: 0,
             closed: false,
+            part: None,
             points: corner.to_vec(),
         };
         let size = [20, 20];

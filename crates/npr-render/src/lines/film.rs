@@ -100,6 +100,7 @@ mod tests {
             occluders: 0,
             surface: 0,
             closed,
+            part: None,
             points: places.iter().map(point).collect(),
         }
     }

@@ -1,13 +1,15 @@
 //! Strokes that hold still from frame to frame.
 
 use crate::scenes::{SIZE, camera_at, scene_of};
-use npr_core::camera::{Camera, bounds_of};
+use npr_core::camera::{Camera, Projection, bounds_of};
 use npr_core::math::{cos_f64, sin_f64};
-use npr_mesh::testing::{icosphere, mapped};
+use npr_mesh::Mesh;
+use npr_mesh::testing::{cube, icosphere, mapped};
 use npr_render::{Drawing, HeldLines, LineModel, LineModelOptions, LineOptions, LineSource};
 use npr_scene::Scene;
 use npr_stylesheet::Style;
 use npr_vector::project::Projector;
+use npr_vector::stroke::{Stroke, StrokePoint};
 use std::collections::BTreeSet;
 
 /// A ball with bumps, whose outlines run into each other and end everywhere.
@@ -191,4 +193,75 @@ fn held_frames_are_the_same_on_any_number_of_threads() {
             .install(|| turn(&model, &LineOptions::new(SIZE), true))
     };
     assert_eq!(frames(1), frames(3));
+}
+
+/// A beam from x = -2 to 2 behind two posts, as seen from farther and farther to the right: the posts pass before it,
+/// and its right end comes out from behind the second.
+fn passing_posts(style: &Style) -> Vec<Drawing> {
+    let corners: [[[f32; 3]; 2]; 3] = [
+        [[-2.0, -0.2, -0.2], [2.0, 0.2, 0.2]],
+        [[-0.6, -2.0, 2.9], [-0.2, 2.0, 3.0]],
+        [[0.9, -2.0, 2.9], [1.23, 2.0, 3.0]],
+    ];
+    let boxes = corners.map(|corners| {
+        let at = |p: [f32; 3]| std::array::from_fn(|i| corners[usize::from(p[i] > 0.0)][i]);
+        mapped(&cube(), at)
+    });
+    let positions = boxes.iter().flat_map(|mesh| mesh.positions().to_vec());
+    let triangles = boxes.iter().zip(0_u32..).flat_map(|(mesh, number)| {
+        let triangles = mesh.triangles().to_vec().into_iter();
+        triangles.map(move |corners| corners.map(|corner| corner + 8 * number))
+    });
+    let mesh = Mesh::new(positions.collect(), triangles.collect()).expect("boxes");
+    let model = LineModel::for_style(&scene_of(&mesh), style, &LineModelOptions::default(), None)
+        .expect("a small scene");
+    let options = LineOptions::new([640, 240]);
+    let mut held = HeldLines::default();
+    let frames = (0..30).map(|frame| {
+        let x = -0.6 + 0.04 * frame as f32;
+        let camera = Camera {
+            eye: [x, 3.0, 9.0],
+            target: [x, 0.0, 0.0],
+            up: [0.0, 1.0, 0.0],
+            projection: Projection::Perspective { fov_y: 0.4 },
+        };
+        model.draw_held(&camera, style, &options, &mut held)
+    });
+    frames.collect::<Result<_, _>>().expect("drawn")
+}
+
+/// The part behind a post that nobody saw before, and what a post parts, go on as the line does.
+#[test]
+fn a_line_goes_on_behind_what_passes_before_it() {
+    let frames = passing_posts(&Style::default());
+    let edge_of = |drawing: &Drawing| -> Vec<Stroke> {
+        // The upper edge in front.
+        let is_on = |point: &StrokePoint| {
+            let [_, y, z] = point.world;
+            (y - 0.2).abs() < 0.02 && (z - 0.2).abs() < 0.02
+        };
+        let strokes = drawing.strokes.iter();
+        let on = strokes.filter(|stroke| stroke.points.iter().all(is_on));
+        on.filter(|stroke| stroke.length() > 20.0)
+            .cloned()
+            .collect()
+    };
+    let counts: Vec<usize> = frames.iter().map(|frame| edge_of(frame).len()).collect();
+    assert_eq!((counts[0], counts[29]), (2, 3), "{counts:?}");
+
+    // Its texture lies on the beam wherever it is seen, and it is called by one name.
+    let first = &edge_of(&frames[0])[0];
+    let [from, to] = [0, first.points.len() - 1].map(|i| &first.points[i]);
+    let per_unit = (to.u - from.u) / f64::from(to.world[0] - from.world[0]);
+    for stroke in frames.iter().flat_map(edge_of) {
+        assert_eq!(stroke.line(), first.line());
+        for point in &stroke.points {
+            let expected = from.u + per_unit * f64::from(point.world[0] - from.world[0]);
+            assert!(
+                (point.u - expected).abs() < 2.5,
+                "{} but {expected}",
+                point.u
+            );
+        }
+    }
 }

@@ -58,13 +58,16 @@ pub(super) fn slow_growth(strokes: &mut [Stroke], known: &Known) -> Vec<usize> {
     // Take it off.
     let mut shortened = Vec::new();
     for (number, [first, last]) in grown {
-        let points = &mut strokes[number].points;
+        let stroke = &mut strokes[number];
+        let by_px = [first, last].map(|grown| (grown - GROWTH_PX).max(0.0));
+        stroke.part = stroke.part.map(|part| part.shortened(by_px));
+        let points = &mut stroke.points;
         if first > 0.0 {
-            shorten(points, first - GROWTH_PX);
+            shorten(points, by_px[0]);
         }
         if last > 0.0 {
             points.reverse();
-            shorten(points, last - GROWTH_PX);
+            shorten(points, by_px[1]);
             // The last point lies on what the piece before it lies on.
             points[0].location = points[1].location;
             points.reverse();

@@ -12,29 +12,53 @@ const LEAST_SHARE: f64 = 0.3;
 /// Bits of an identity below those that tell apart strokes on the same mesh edge.
 const OWN_BITS: u32 = 45;
 
+/// One that asks for an identity.
+pub(super) struct Claimant {
+    /// Its own one.
+    pub own: u64,
+    /// How many samples it had of each of the frame before.
+    pub counts: BTreeMap<u64, usize>,
+    /// How many samples found one of the frame before.
+    pub vote_count: usize,
+}
+
 /// Gives strokes the identities of the lines that they were: that with most samples on each line takes its identity,
 /// and what is left has its own, made of mesh edges.
 ///
-/// An own one that is taken gets the first free number above it. Ties are broken by own identities, so the order of
-/// strokes decides only between two with the same.
+/// A stroke that is a part of a line takes over from strokes, one that is a whole line from lines: so what was in parts
+/// is called as its line was. An own one that is taken gets the first free number above it. Ties are broken by own
+/// identities, so the order of strokes decides only between two with the same.
 pub(super) fn settle_ids(strokes: &mut [Stroke], tallies: &[Tally], lines: &[Line]) {
-    // Count how much of every identity each stroke has.
+    let claimants = strokes.iter().zip(tallies).map(|(stroke, tally)| Claimant {
+        own: stroke.id,
+        counts: tally.counts(|line| match stroke.part {
+            Some(_) => lines[line].id,
+            None => lines[line].whole_id,
+        }),
+        vote_count: tally.vote_count,
+    });
+    let ids = settled(&claimants.collect::<Vec<_>>());
+    for (stroke, id) in strokes.iter_mut().zip(ids) {
+        stroke.id = id;
+    }
+}
+
+/// The identity of each claimant, none twice: of the frame before to the one that has most of it, else its own.
+pub(super) fn settled(claimants: &[Claimant]) -> Vec<u64> {
+    // Let each ask for those that it has much of.
     let mut claims: Vec<(Reverse<usize>, u64, u64, usize)> = Vec::new();
-    for (index, tally) in tallies.iter().enumerate() {
-        let mut counts: BTreeMap<u64, usize> = BTreeMap::new();
-        for (count, line) in &tally.lines {
-            *counts.entry(lines[*line as usize].id).or_default() += count;
-        }
-        let least = LEAST_SHARE * tally.vote_count as f64;
-        let large = counts
-            .into_iter()
-            .filter(|(_, count)| *count as f64 >= least);
-        claims.extend(large.map(|(id, count)| (Reverse(count), strokes[index].id, id, index)));
+    for (index, claimant) in claimants.iter().enumerate() {
+        let least = LEAST_SHARE * claimant.vote_count as f64;
+        let large = claimant
+            .counts
+            .iter()
+            .filter(|(_, count)| **count as f64 >= least);
+        claims.extend(large.map(|(id, count)| (Reverse(*count), claimant.own, *id, index)));
     }
     claims.sort_unstable();
 
     // Give each to the first that asks and has none.
-    let mut ids: Vec<Option<u64>> = vec![None; strokes.len()];
+    let mut ids: Vec<Option<u64>> = vec![None; claimants.len()];
     let mut used: BTreeSet<u64> = BTreeSet::new();
     for (_, _, id, index) in claims {
         if ids[index].is_none() && used.insert(id) {
@@ -43,16 +67,16 @@ pub(super) fn settle_ids(strokes: &mut [Stroke], tallies: &[Tally], lines: &[Lin
     }
 
     // Name the others by themselves.
-    let mut left: Vec<usize> = (0..strokes.len())
+    let mut left: Vec<usize> = (0..claimants.len())
         .filter(|index| ids[*index].is_none())
         .collect();
-    left.sort_by_key(|index| (strokes[*index].id, *index));
+    left.sort_by_key(|index| (claimants[*index].own, *index));
     for index in left {
-        let own = strokes[index].id;
+        let own = claimants[index].own;
         let mut numbers = (0_u64..).map(|number| own.wrapping_add(number << OWN_BITS));
         ids[index] = numbers.find(|id| used.insert(*id));
     }
-    for (stroke, id) in strokes.iter_mut().zip(ids) {
-        stroke.id = id.unwrap_or(stroke.id);
-    }
+    let own = ids.into_iter().zip(claimants);
+    own.map(|(id, claimant)| id.unwrap_or(claimant.own))
+        .collect()
 }

@@ -31,6 +31,8 @@ const _: () = assert!(size_of::<Sample>() <= 32, "a sample takes 32 bytes at mos
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Line {
     pub id: u64,
+    /// Identity of the line that it was, or was a part of.
+    pub whole_id: u64,
     pub kind: Kind,
     /// Whether something was in front of it.
     pub is_hidden: bool,

@@ -60,6 +60,7 @@ fn stroke(id: u64, places: &[[f64; 2]], closed: bool, right: f32) -> Stroke {
         occluders: 0,
         surface: 0,
         closed,
+        part: None,
         points,
     }
 }
@@ -573,5 +574,90 @@ proptest! {
         let first = frames.next();
         prop_assert_eq!(&frames.next(), &first);
         prop_assert_eq!(&frames.next(), &first);
+    }
+}
+
+/// The part of a line from one x to another along the row y = 100, on which the line runs from 60 to 560 or back.
+fn part_of_row(id: u64, [from, to]: [f64; 2], is_back: bool) -> Stroke {
+    let ends = [from, to].map(|x| if is_back { 560.0 - x } else { x - 60.0 });
+    let mut part = line(id, from, to, 100.0);
+    part.part = Some(LinePart {
+        line: 40,
+        ends_px: ends,
+        length_px: 500.0,
+    });
+    if is_back {
+        part.points.reverse();
+        part.part = part.part.map(LinePart::reversed);
+    }
+    measure(&mut part.points);
+    for point in &mut part.points {
+        point.u += part.part.map_or(0.0, |part| part.ends_px[0]);
+    }
+    part
+}
+
+proptest! {
+    /// A line before which something passes stays one line: its parts keep its name and its texture, and so does it
+    /// when it is whole again.
+    #[test]
+    fn what_is_parted_for_a_while_stays_one_line(
+        gap in [70.0..300.0_f64, 20.0..200.0],
+        is_back in prop::array::uniform3(any::<bool>()),
+        from_u in -300.0..300.0_f64,
+        frames in 1_usize..9,
+    ) {
+        let [left, right] = [gap[0], gap[0] + gap[1]];
+        let mut whole = line(7, 60.0, 560.0, 100.0);
+        whole.points.iter_mut().for_each(|point| point.u += from_u);
+        let parted = |number: usize| {
+            let back = is_back[number % 2];
+            vec![part_of_row(40, [60.0, left], back), part_of_row(41, [right, 560.0], back)]
+        };
+        let last = line(50, 60.0, 560.0, 100.0);
+        let frames = std::iter::once(vec![whole]).chain((0..frames).map(parted)).chain([vec![last]]);
+        for strokes in held(frames) {
+            prop_assert!(strokes.iter().all(|stroke| stroke.line() == 7), "{:?}", strokes);
+            let ids: std::collections::BTreeSet<u64> = strokes.iter().map(|stroke| stroke.id).collect();
+            prop_assert_eq!(ids.len(), strokes.len());
+            for stroke in &strokes {
+                prop_assert!(stroke.part.is_none_or(|part| !part.is_against()));
+                for point in &stroke.points {
+                    let expected = point.position[0] - 60.0 + from_u;
+                    prop_assert!((point.u - expected).abs() < 0.1, "{} but {}", point.u, expected);
+                }
+            }
+        }
+    }
+
+    /// A part that nobody saw before goes on from the part beside it, whichever way this runs.
+    #[test]
+    fn a_part_that_comes_into_sight_goes_on(
+        is_back in prop::array::uniform2(any::<bool>()),
+        is_first: bool,
+        from_u in -300.0..300.0_f64,
+    ) {
+        let [shown, new] = match is_first {
+            true => [[60.0, 200.0], [300.0, 560.0]],
+            false => [[300.0, 560.0], [60.0, 200.0]],
+        };
+        let mut before = part_of_row(40, shown, is_back[0]);
+        before.part = None;
+        let first_u = before.points[0].u;
+        before.points.iter_mut().for_each(|point| point.u += from_u - first_u);
+        let u_of = |x: f64| {
+            let start = if is_back[0] { shown[1] } else { shown[0] };
+            from_u + if is_back[0] { start - x } else { x - start }
+        };
+        let after = vec![part_of_row(40, shown, is_back[1]), part_of_row(41, new, is_back[1])];
+        let strokes = held([vec![before], after]).pop().expect("a frame");
+        prop_assert_eq!(strokes.len(), 2);
+        for stroke in &strokes {
+            prop_assert_eq!(stroke.line(), 40);
+            for point in &stroke.points {
+                let expected = u_of(point.position[0]);
+                prop_assert!((point.u - expected).abs() < 0.1, "{} but {}", point.u, expected);
+            }
+        }
     }
 }

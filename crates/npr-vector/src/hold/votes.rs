@@ -44,6 +44,15 @@ impl Tally {
     pub fn main_line(&self) -> Option<u32> {
         self.lines.first().map(|(_, line)| *line)
     }
+
+    /// How many samples were on the lines of each identity.
+    pub fn counts(&self, id_of: impl Fn(usize) -> u64) -> BTreeMap<u64, usize> {
+        let mut counts: BTreeMap<u64, usize> = BTreeMap::new();
+        for (count, line) in &self.lines {
+            *counts.entry(id_of(*line as usize)).or_default() += count;
+        }
+        counts
+    }
 }
 
 /// The vote of each place of a stroke; none where nothing was there.

@@ -248,6 +248,10 @@ fn parts(run: &Run, cuts: &[usize]) -> Vec<Run> {
                 run.closed || index > 0 || run.cut[0],
                 run.closed || !is_last || run.cut[1],
             ],
+            beyond: [
+                run.beyond[0].filter(|_| index == 0 && !run.closed),
+                run.beyond[1].filter(|_| is_last && !run.closed),
+            ],
             closed: false,
             points,
             ..run.clone_empty()

@@ -180,11 +180,11 @@ pub fn runs_with(
     // Put smooth contours in their place where the settings ask for them.
     let smooth_contours = view.smooth_contours(edge_contours, &contour_lines);
     let contour_runs = match &smooth_contours {
-        Some((graph, lines)) => runs(shape, projector, graph, (lines, settings.hidden)),
+        Some((graph, lines)) => runs(shape, projector, (graph, 0), (lines, settings.hidden)),
         None => runs(
             shape,
             projector,
-            edge_contours,
+            (edge_contours, 0),
             (&contour_lines, settings.hidden),
         ),
     };
@@ -208,9 +208,10 @@ pub fn runs_with(
         &prepared.crossings.graph,
     ];
     let mut found = contour_runs;
-    for graph in others {
+    for (graph, number) in others.into_iter().zip(1..) {
         let lines = view.lines(graph, &seen, wanted, &mut toll)?;
-        found.extend(runs(shape, projector, graph, (&lines, settings.hidden)));
+        let hidden = settings.hidden;
+        found.extend(runs(shape, projector, (graph, number), (&lines, hidden)));
     }
 
     // Join and smooth them, and add the outline of smoke.

@@ -326,6 +326,10 @@ fn parts(run: &Run, doubled: &[bool]) -> Vec<Run> {
                     run.cut[0] && first == 0 && !run.closed,
                     run.cut[1] && last == count && !run.closed,
                 ],
+                beyond: [
+                    run.beyond[0].filter(|_| first == 0 && !run.closed),
+                    run.beyond[1].filter(|_| last == count && !run.closed),
+                ],
                 ..run.clone_empty()
             });
         }

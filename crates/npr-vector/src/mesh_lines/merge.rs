@@ -422,6 +422,7 @@ fn extend(run: &mut Run, more: &Run) {
     run.id = run.id.min(more.id);
     run.occluders = run.occluders.min(more.occluders);
     run.cut[1] = more.cut[1];
+    run.beyond[1] = more.beyond[1];
 }
 
 #[cfg(test)]

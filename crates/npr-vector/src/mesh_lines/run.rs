@@ -1,6 +1,6 @@
 //! Runs: connected parts of lines, each of one kind, surface and visibility.
 
-use crate::stroke::Kind;
+use crate::stroke::{Kind, LinePart};
 use crate::surface_location::SurfaceLocation;
 use glam::DVec3;
 use npr_core::line_kind::KIND_NUMBER_BITS;
@@ -46,10 +46,23 @@ pub struct Run {
     pub closed: bool,
     /// Whether its first and its last point lie where it was cut at a corner: nothing is joined there.
     pub cut: [bool; 2],
+    /// Where its line goes on behind something from its first and from its last point.
+    pub beyond: [Option<Beyond>; 2],
+    /// Which part of its line it is, once [`tell_parts`](crate::mesh_lines::line_parts::tell_parts) has told.
+    pub part: Option<LinePart>,
     /// Factor on its width.
     pub weight: f64,
     /// The points, at least two.
     pub points: Vec<RunPoint>,
+}
+
+/// What lies behind something between two seen parts of a line.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Beyond {
+    /// Its number in the view: the end of another run that has the same is the other end of it.
+    pub number: u64,
+    /// Its length in the picture, in pixels.
+    pub length_px: f64,
 }
 
 impl Run {
@@ -78,6 +91,8 @@ impl Run {
             self.points.iter().map(|p| (p.location, p.leaps)).collect();
         self.points.reverse();
         self.cut.reverse();
+        self.beyond.reverse();
+        self.part = self.part.map(LinePart::reversed);
         let count = self.points.len();
         for (i, point) in self.points.iter_mut().enumerate() {
             let (location, leaps) = after[(2 * count - 2 - i) % count];
@@ -174,6 +189,8 @@ pub(crate) mod testing {
             occluders: 0,
             closed: false,
             cut: [false; 2],
+            beyond: [None; 2],
+            part: None,
             weight: 1.0,
             points: places.iter().map(point).collect(),
         }

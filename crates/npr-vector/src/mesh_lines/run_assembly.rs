@@ -3,7 +3,7 @@
 use crate::mesh_lines::corner::start_at_head;
 use crate::mesh_lines::graph::CurveGraph;
 use crate::mesh_lines::line::Line;
-use crate::mesh_lines::run::{Run, RunPoint, base_id, number};
+use crate::mesh_lines::run::{Beyond, Run, RunPoint, base_id, distance, number};
 use crate::mesh_lines::visibility::Span;
 use crate::project::Projector;
 use crate::rank::hash_key;
@@ -14,6 +14,16 @@ use rayon::prelude::*;
 
 /// Gaps in a line up to this length are closed, in pixels: nobody sees them, and each would cost a stroke.
 const GAP_PX: f64 = 0.75;
+
+/// Length over which the direction of a line is taken where something begins to hide it, in pixels.
+const DIRECTION_PX: f64 = 6.0;
+
+/// How many times as long as straight across a way behind something may be: a line that turns back there comes out as
+/// another one.
+const DETOUR_MOST: f64 = 2.0;
+
+/// Bits of the number of a hidden way below those of its chain, and below those of its graph.
+const NUMBER_BITS: [u32; 2] = [24, 56];
 
 /// One span of a chain.
 #[derive(Debug, Clone, Copy)]
@@ -40,21 +50,28 @@ impl Item<'_> {
     fn length(&self) -> f64 {
         self.line.piece.length() * (self.span.to - self.span.from)
     }
+
+    /// Its start and its end in the picture.
+    fn ends(&self) -> [[f64; 2]; 2] {
+        [self.span.from, self.span.to].map(|share| self.line.piece.place_at(share))
+    }
 }
 
 /// The runs of all chains of a graph, the hidden ones only where wanted; `lines` holds the line after each node.
 ///
-/// Whether hidden ones are wanted changes nothing of the others. O(spans), in parallel.
+/// `graph_number` tells the graphs of a view apart. Whether hidden ones are wanted changes nothing of the others.
+/// O(spans), in parallel.
 pub fn runs(
     shape: &HalfEdgeMesh,
     projector: &Projector,
-    graph: &CurveGraph,
+    (graph, graph_number): (&CurveGraph, u64),
     (lines, hidden): (&[Option<Line>], bool),
 ) -> Vec<Run> {
     let maker = Maker {
         shape,
         projector,
         graph,
+        graph_number,
         lines,
         hidden,
     };
@@ -154,11 +171,89 @@ fn breaks(items: &[Item<'_>], is_loop: bool) -> Vec<usize> {
         .collect()
 }
 
+/// Where both ends of each part of a chain go on behind something to another part; parts are ranges of items, which
+/// wrap around the end of the list, and the last goes on as the first where the chain is a loop.
+///
+/// A line goes on behind something if it keeps its direction where it is hidden, which it does not at a cusp, if it
+/// comes out as what it was, and if it does not turn back there. `first_number` is the number of the first way.
+fn ways_behind(
+    items: &[Item<'_>],
+    parts: &[[usize; 2]],
+    (is_loop, first_number): (bool, u64),
+) -> Vec<[Option<Beyond>; 2]> {
+    let count = parts.len();
+    let item = |index: usize| &items[index % items.len()];
+    let mut found = vec![[None; 2]; count];
+    for (number, [from, to]) in parts.iter().enumerate() {
+        if item(*from).is_hidden() {
+            continue;
+        }
+
+        // Follow what is hidden to the next part that is seen.
+        let most = if is_loop { number + count } else { count };
+        let seen = (number + 1..most).find(|next| !item(parts[next % count][0]).is_hidden());
+        let Some(next) = seen else {
+            continue;
+        };
+        let hidden: Vec<&Item<'_>> = (number + 1..next)
+            .flat_map(|part| parts[part % count][0]..parts[part % count][1])
+            .map(item)
+            .collect();
+        let (last, [next_from, next_to]) = (item(to - 1), parts[next % count]);
+        let first = item(next_from);
+        let is_whole = first.follows && hidden.iter().all(|item| item.follows);
+        let is_alike = first.line.kind == last.line.kind && first.line.surface == last.line.surface;
+        if hidden.is_empty() || !is_whole || !is_alike {
+            continue;
+        }
+
+        // Look whether it keeps its direction and does not turn back.
+        let before = way(((*from)..*to).rev().map(item), 1);
+        let after = way((next_from..next_to).map(item), 0);
+        let behind = [
+            way(hidden.iter().copied(), 0),
+            way(hidden.iter().rev().copied(), 1),
+        ];
+        let keeps = |out: [f64; 2], on: [f64; 2]| out[0] * on[0] + out[1] * on[1] < 0.0;
+        let length_px: f64 = hidden.iter().map(|item| item.length()).sum();
+        let across = distance(last.ends()[1], first.ends()[0]);
+        if keeps(before, behind[0]) && keeps(after, behind[1]) && length_px <= DETOUR_MOST * across
+        {
+            let beyond = Beyond {
+                number: first_number + number as u64,
+                length_px,
+            };
+            found[number][1] = Some(beyond);
+            found[next % count][0] = Some(beyond);
+        }
+    }
+    found
+}
+
+/// The way into items from the near end of the first, as far as directions are taken; `near` is 0 where that is its
+/// start and 1 where it is its end.
+fn way<'a>(items: impl Iterator<Item = &'a Item<'a>>, near: usize) -> [f64; 2] {
+    let mut from = None;
+    let mut to = [0.0; 2];
+    let mut length = 0.0;
+    for item in items {
+        let ends = item.ends();
+        from.get_or_insert(ends[near]);
+        to = ends[1 - near];
+        length += item.length();
+        if length >= DIRECTION_PX {
+            break;
+        }
+    }
+    from.map_or([0.0; 2], |from| [0, 1].map(|i| to[i] - from[i]))
+}
+
 /// Makes runs of the chains of a graph.
 struct Maker<'a> {
     shape: &'a HalfEdgeMesh,
     projector: &'a Projector,
     graph: &'a CurveGraph,
+    graph_number: u64,
     /// The line after each node.
     lines: &'a [Option<Line>],
     /// Whether hidden runs are made.
@@ -188,17 +283,23 @@ impl Maker<'_> {
             return whole.into_iter().collect();
         };
 
-        // Else every part between two breaks becomes an open one.
+        // Else every part between two breaks becomes an open one, which may go on behind something.
         let ends = breaks.iter().skip(1).copied();
         let ends = ends.chain([first_break + items.len()]);
-        let parts = breaks
-            .iter()
-            .zip(ends)
-            .filter(|(from, _)| is_made(&items[**from]));
+        let parts = breaks.iter().zip(ends).map(|(from, to)| [*from, to]);
+        let parts: Vec<[usize; 2]> = parts.collect();
+        let [of_chain, of_graph] = NUMBER_BITS;
+        let number = self.graph_number << of_graph | u64::from(chain[0]) << of_chain;
+        let beyond = ways_behind(&items, &parts, (is_loop, number));
+        let parts = parts.into_iter().zip(beyond);
         parts
-            .map(|(from, to)| {
-                let part: Vec<Item<'_>> = (*from..to).map(|k| items[k % items.len()]).collect();
-                self.run(&part, false)
+            .filter(|([from, _], _)| is_made(&items[*from]))
+            .map(|([from, to], beyond)| {
+                let part: Vec<Item<'_>> = (from..to).map(|k| items[k % items.len()]).collect();
+                Run {
+                    beyond,
+                    ..self.run(&part, false)
+                }
             })
             .collect()
     }
@@ -238,6 +339,8 @@ impl Maker<'_> {
                 .unwrap_or(0),
             closed,
             cut: [(&items[0], 0.0), (&items[items.len() - 1], 1.0)].map(|end| self.ends_card(end)),
+            beyond: [None; 2],
+            part: None,
             weight: 1.0,
             points,
         }

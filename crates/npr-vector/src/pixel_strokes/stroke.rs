@@ -225,6 +225,8 @@ impl Maker<'_> {
             occluders: 0,
             closed,
             cut: [false; 2],
+            beyond: [None; 2],
+            part: None,
             weight: 1.0,
             points,
         })

@@ -2,6 +2,7 @@
 
 mod creases_going_on;
 mod crowds;
+mod line_parts;
 mod lines;
 mod polylines;
 mod rounded_edges;

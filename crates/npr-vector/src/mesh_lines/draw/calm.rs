@@ -4,6 +4,7 @@ use crate::mesh_lines::bridge::bridge_gaps;
 use crate::mesh_lines::corner::split;
 use crate::mesh_lines::duplicates::{leave_out_short_fragments, suppress};
 use crate::mesh_lines::joints::{JoiningStep, JointsInView};
+use crate::mesh_lines::line_parts::tell_parts;
 use crate::mesh_lines::line_settings::LineSettings;
 use crate::mesh_lines::merge::{FACING_PX, TOUCHING_PX, merge_held};
 use crate::mesh_lines::overshoot::cut_overshoot;
@@ -36,5 +37,6 @@ pub(crate) fn calmed(
         smooth(&mut found, lens);
         found = leave_out_short_fragments(found);
     }
+    tell_parts(&mut found);
     found
 }

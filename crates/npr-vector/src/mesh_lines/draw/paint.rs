@@ -137,7 +137,7 @@ pub(crate) fn strokes_of(
 
 fn stroke_of(run: &Run, paint_at: &(dyn Fn(&Run, &RunPoint) -> PointPaint + Sync)) -> Stroke {
     // Measure the length in the picture, and paint point by point.
-    let mut u = 0.0;
+    let mut u = run.part.map_or(0.0, |part| part.ends_px[0]);
     let mut last = run.points.first().map(|point| point.place);
     let points = run.points.iter().enumerate().map(|(index, point)| {
         u += last.map_or(0.0, |last| distance(last, point.place));
@@ -162,6 +162,7 @@ fn stroke_of(run: &Run, paint_at: &(dyn Fn(&Run, &RunPoint) -> PointPaint + Sync
         occluders: run.occluders,
         surface: run.surface,
         closed: run.closed,
+        part: run.part,
         points: points.collect(),
     }
 }

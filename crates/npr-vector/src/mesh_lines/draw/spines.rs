@@ -67,9 +67,9 @@ pub fn spines(
         &prepared.crossings.graph,
     ];
     let mut found = Vec::new();
-    for graph in graphs {
+    for (graph, number) in graphs.into_iter().zip(0..) {
         let lines = view.open_lines(graph, &mut toll)?;
-        found.extend(runs(shape, projector, graph, (&lines, false)));
+        found.extend(runs(shape, projector, (graph, number), (&lines, false)));
     }
     if !shape.cards.is_empty() {
         let runs = found.iter_mut();

@@ -99,7 +99,12 @@ impl SmokeLines<'_> {
             surfaces: vec![Surface::default()],
             ..HalfEdgeMesh::default()
         };
-        let found = runs(&smoke, seen.projector, &graph, (&lines, settings.hidden));
+        let found = runs(
+            &smoke,
+            seen.projector,
+            (&graph, 0),
+            (&lines, settings.hidden),
+        );
         let mut found = calmed(found, settings, seen.projector.lens(), None);
         for run in &mut found {
             run.id |= SMOKE_ID;
