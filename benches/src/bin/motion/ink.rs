@@ -80,12 +80,17 @@ impl Look {
 /// Takes the grain of the paper from hatching, and from brushes.
 const SMOOTH: [&str; 2] = ["ink.hatch.grain=0", "line.brush.grain=0"];
 
+/// Sets strokes as many pixels apart as they are in a frame twice as high.
+const WIDE: [&str; 2] = ["ink.hatch.spacing=12", "ink.hatch.spacing=14"];
+
 /// What is measured.
-pub const LOOKS: [Look; 15] = {
+pub const LOOKS: [Look; 17] = {
     use Medium::{Brush, Hatching};
     [
         Look::new("crosshatch", "crosshatch", Hatching),
+        Look::new("crosshatch, wide", "crosshatch", Hatching).with(WIDE[0]),
         Look::new("comic-silver", "comic-silver", Hatching),
+        Look::new("comic-silver, wide", "comic-silver", Hatching).with(WIDE[1]),
         Look::new("stipple", "stipple", Hatching),
         Look::new("pencil", "pencil", Hatching),
         Look::new("pencil, smooth paper", "pencil", Hatching).with(SMOOTH[0]),

@@ -29,7 +29,8 @@ pub fn heading() {
          on the surface is the same within 3 of 255, and no edge of an object lies within {EDGE_PX} px; of brushes a \
          plain pen puts the same ink there, within a tenth. The rest has a cause: it comes into view, the light \
          explains it, or lines move ([how those hold](motion.md)). Of the ink that can be compared:\n\n\
-         - **differs**: the tone at its own place is another by more than {STEP} of full ink, or half of its own, softened by a pixel\n\
+         - **differs**: the tone at its own place is another by more than {STEP} of full ink, or half of its \
+         own, softened by a pixel\n\
          - **gone**: nothing within {NEAR_PX} px of its place in the next frame has half as much ink; **new**: the \
          same backwards\n\
          - **slides**: how far squares of 24 px of ink have to move to match, median\n\
@@ -38,7 +39,7 @@ pub fn heading() {
          - **later differs**, **later gone**: the same of frames {LATER} apart, for what slides by less than a stroke \
          from one to the next\n\n\
          Rows with smooth paper have `grain = 0`: the hills of the paper lie still in the picture, whatever moves \
-         behind it.\n"
+         behind it. Wide rows have strokes as many pixels apart as a frame twice as high.\n"
     );
 }
 
