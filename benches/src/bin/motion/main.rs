@@ -1,8 +1,8 @@
 //! Measures how still strokes lie while cameras and figures move, or with `--ink` how still the ink of hatching and
 //! brushes does, and prints tables in Markdown.
 //!
-//! Run by `cargo xtask measure motion`, once for each, and `cargo xtask measure ink`, which keep what is printed. A measuring program, not a test: it fails only
-//! where loading or drawing fails.
+//! Run by `cargo xtask measure motion`, once for each, and `cargo xtask measure ink`, which keep what is printed. A
+//! measuring program, not a test: it fails only where loading or drawing fails.
 
 mod arguments;
 mod ink;
