@@ -1,6 +1,7 @@
 //! How comic pictures behave: [`motion`] of strokes while the camera goes round, [`price`] of ink and hatching against
-//! plain tones, and [`gallery`], sheets of every preset for people to look at.
+//! plain tones, [`shift`] of ink against its surface, and [`gallery`], sheets of every preset for people to look at.
 
 pub mod gallery;
 pub mod motion;
 pub mod price;
+pub mod shift;

@@ -36,3 +36,4 @@ pub mod solid;
 pub mod subject;
 pub mod table;
 pub mod timing;
+pub mod tones;

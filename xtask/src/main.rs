@@ -60,8 +60,11 @@ usage: cargo xtask COMMAND
                     count dashes in pictures of lines, in release, and keep the tables of the usual style;
                     ARGS: --preset NAME, --set KEY=VALUE
   measure motion [ARGS]
-                    measure how still lines lie while cameras and figures move, in release, and keep the tables; ARGS:
-                    --models DIR, --only NAME, --quick, --pictures DIR
+                    measure how still lines lie while cameras and figures move, and what measure ink does, in release,
+                    and keep the tables; ARGS: --models DIR, --only NAME, --quick, --pictures DIR
+  measure ink [ARGS]
+                    measure how much ink of hatching and brushes changes without cause while cameras and figures move,
+                    in release, and keep the tables; ARGS as above
   measure device [ARGS]
                     count what a frame asks of a graphics device, in release, predict its time on cards, and keep the
                     tables of the usual frame; ARGS: --model FILE, --ball TRIANGLES, --preset NAME, --size WxH
@@ -117,6 +120,7 @@ fn dispatch(root: &Path, words: &[&str]) -> Option<Result<()>> {
         ["measure", "outline-colour"] => measure::outline_color(root),
         ["measure", "dashes", rest @ ..] => measure::dashes(root, rest),
         ["measure", "motion", rest @ ..] => measure::motion(root, rest),
+        ["measure", "ink", rest @ ..] => measure::ink(root, rest),
         ["measure", "device", rest @ ..] => measure::device(root, rest),
         ["measure", "viewers"] => measure::viewers(root),
         ["measure", "view"] => measure::view(root),

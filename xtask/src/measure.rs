@@ -29,6 +29,9 @@ const DASHES: &str = "benches/results/dashes.md";
 /// Where the tables of lines that move are kept.
 const MOTION: &str = "benches/results/motion.md";
 
+/// Where the tables of ink that moves are kept.
+const INK: &str = "benches/results/motion_ink.md";
+
 /// Where the tables of frames on graphics cards are kept.
 const DEVICE: &str = "benches/results/device_model.md";
 
@@ -131,12 +134,22 @@ pub fn dashes(root: &Path, arguments: &[&str]) -> Result<()> {
     Ok(())
 }
 
-/// Measures how still lines lie while cameras and figures move in release and prints the tables; those of a whole run
-/// become the results.
+/// Measures how still lines lie while cameras and figures move in release and prints the tables, then those of [`ink`];
+/// those of a whole run become the results.
 pub fn motion(root: &Path, arguments: &[&str]) -> Result<()> {
     let tables = tables_of(root, "motion", arguments)?;
     if keeps(arguments) {
         write_whole(&root.join(MOTION), &tables)?;
+    }
+    ink(root, arguments)
+}
+
+/// Measures how much ink of hatching and brushes changes without cause in release and prints the tables; those of a
+/// whole run become the results.
+pub fn ink(root: &Path, arguments: &[&str]) -> Result<()> {
+    let tables = tables_of(root, "motion", &[&["--ink"], arguments].concat())?;
+    if keeps(arguments) {
+        write_whole(&root.join(INK), &tables)?;
     }
     Ok(())
 }

@@ -9,17 +9,9 @@ use npr_core::camera::Camera;
 use npr_core::color::linear_from_srgb;
 use npr_render::Frame;
 
+use super::shift::shifts;
 use crate::lines::soup::Soup;
 use crate::lines::viewpoint::Viewpoint;
-
-/// Side of the squares that are aligned, in pixels.
-const SQUARE: usize = 24;
-
-/// Farthest shift looked for, in pixels: less than half the distance of strokes, beyond which neighbours change places.
-const REACH: i32 = 3;
-
-/// What the square of a shift costs beside the mean squared difference: along a stroke nothing else tells shifts apart.
-const SHIFT_PRICE: f64 = 1e-3;
 
 /// How much nearer a point may lie than what a pixel shows, as a part of its depth, and still be that surface.
 const SAME_DEPTH: f64 = 0.01;
@@ -161,58 +153,9 @@ impl Inked {
 
         // Measure how far the strokes move against it.
         if with_shifts {
-            change.shifts = next.shifts_from(&carried);
+            change.shifts = shifts([next.width, next.height], &next.ink, &carried);
         }
         change
-    }
-
-    /// Shift of every square that shows surface alone and strokes enough to tell.
-    fn shifts_from(&self, carried: &[Option<f64>]) -> Vec<f64> {
-        let margin = REACH as usize + 2;
-        let columns = (margin..self.width.saturating_sub(SQUARE + margin)).step_by(SQUARE);
-        let rows = (margin..self.height.saturating_sub(SQUARE + margin)).step_by(SQUARE);
-        rows.flat_map(|y| columns.clone().map(move |x| [x, y]))
-            .filter_map(|corner| self.shift_of(corner, carried))
-            .collect()
-    }
-
-    /// Length of the shift that brings the carried ink of a square closest to this frame's.
-    fn shift_of(&self, [left, top]: [usize; 2], carried: &[Option<f64>]) -> Option<f64> {
-        let places = (top..top + SQUARE).flat_map(|y| (left..left + SQUARE).map(move |x| [x, y]));
-        let square: Vec<([usize; 2], f64)> = places
-            .map(|[x, y]| Some(([x, y], carried[y * self.width + x]?)))
-            .collect::<Option<_>>()?;
-        let share = square.iter().map(|(_, ink)| ink).sum::<f64>() / square.len() as f64;
-        if !(0.1..0.9).contains(&share) {
-            return None;
-        }
-        // Whole pixels only: ink looked up between pixels is softer, and soft ink matches carried ink better anywhere.
-        let cost = |[dx, dy]: [i32; 2]| {
-            let differences = square.iter().map(|([x, y], ink)| {
-                let (column, row) = (*x as i32 + dx, *y as i32 + dy);
-                let there = self.ink[row as usize * self.width + column as usize];
-                (there - ink) * (there - ink)
-            });
-            let price = SHIFT_PRICE * f64::from(dx * dx + dy * dy);
-            differences.sum::<f64>() / square.len() as f64 + price
-        };
-        let offsets = (-REACH..=REACH).flat_map(|y| (-REACH..=REACH).map(move |x| [x, y]));
-        let [x, y] = offsets.min_by(|a, b| cost(*a).total_cmp(&cost(*b)))?;
-        let [dx, dy] = [[1, 0], [0, 1]].map(|[i, j]| {
-            let [low, middle, high] = [-1, 0, 1].map(|k| cost([x + i * k, y + j * k]));
-            vertex_of(low, middle, high)
-        });
-        Some((f64::from(x) + dx).hypot(f64::from(y) + dy))
-    }
-}
-
-/// Where a parabola through values at -1, 0 and 1, the least at 0, is lowest, -1/2..1/2.
-fn vertex_of(low: f64, middle: f64, high: f64) -> f64 {
-    let bend = low - 2.0 * middle + high;
-    if bend > 0.0 {
-        ((low - high) / (2.0 * bend)).clamp(-0.5, 0.5)
-    } else {
-        0.0
     }
 }
 

@@ -77,6 +77,15 @@ impl Viewpoint {
         ]
     }
 
+    /// The point at a depth that falls on a place: what [`Self::project`] undoes.
+    pub fn point_at(&self, place: [f64; 2], depth: f64) -> DVec3 {
+        let reach = if self.parallel { 1.0 } else { depth };
+        let unit = reach / self.px_per_unit;
+        let right = (place[0] - self.size[0] / 2.0) * unit;
+        let up = (self.size[1] / 2.0 - place[1]) * unit;
+        self.eye + self.forward * depth + self.right * right + self.up * up
+    }
+
     /// Where the line of sight to a point starts, `reach` being larger than the scene.
     pub fn origin(&self, point: DVec3, reach: f64) -> DVec3 {
         if self.parallel {
@@ -179,6 +188,14 @@ mod tests {
             let found = view.project(point);
             let reach = 1.0 + found[0].abs() + found[1].abs();
             prop_assert!((0..2).all(|i| (found[i] - f64::from(expected[i])).abs() < 1e-3 * reach));
+        }
+
+        #[test]
+        fn places_and_depths_are_points(projection in projections(), point in points()) {
+            let view = Viewpoint::new(&camera(projection), [640, 360]);
+            let depth = view.depth(point);
+            prop_assume!(depth > 0.2);
+            prop_assert!(view.point_at(view.project(point), depth).distance(point) < 1e-9);
         }
 
         #[test]

@@ -27,6 +27,8 @@ use npr_render::Frame;
 use npr_smoke::Sphere as Puff;
 use npr_style::smoke::draw::{draw_spheres, project_spheres};
 
+use crate::tones::{brightness, softened};
+
 /// Differences of tone up to this are none: half of what parts the two tones of paint, a sixth of what parts line and
 /// paint.
 pub const STEP: f32 = 0.16;
@@ -261,39 +263,6 @@ impl Shown {
     }
 }
 
-/// Tones with those around them, weighed 1, 2, 1 along both axes; beyond the picture its border goes on.
-fn softened([width, height]: [u32; 2], tones: impl Iterator<Item = f32>) -> Vec<f32> {
-    let (width, height) = (width as usize, height as usize);
-    let tones: Vec<f32> = tones.collect();
-    let mean = |before: f32, here: f32, after: f32| 0.25 * (before + after) + 0.5 * here;
-    let along = |row: &[f32], x: usize| {
-        mean(
-            row[x.saturating_sub(1)],
-            row[x],
-            row[(x + 1).min(width - 1)],
-        )
-    };
-
-    // Average along rows.
-    let rows = tones.chunks(width.max(1));
-    let rows: Vec<f32> = rows
-        .flat_map(|row| (0..row.len()).map(move |x| along(row, x)))
-        .collect();
-
-    // Average along columns.
-    let at = |x: usize, y: usize| rows[y * width + x];
-    let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
-    places
-        .map(|(x, y)| {
-            mean(
-                at(x, y.saturating_sub(1)),
-                at(x, y),
-                at(x, (y + 1).min(height - 1)),
-            )
-        })
-        .collect()
-}
-
 /// The box around spheres.
 fn around(puffs: &[Puff]) -> ([f32; 3], [f32; 3]) {
     let (mut low, mut high) = ([f32::MAX; 3], [f32::MIN; 3]);
@@ -307,12 +276,6 @@ fn around(puffs: &[Puff]) -> ([f32; 3], [f32; 3]) {
         return ([-1.0; 3], [1.0; 3]);
     }
     (low, high)
-}
-
-/// Brightness of an sRGB pixel over white, by the shares of its bytes that television uses.
-fn brightness(pixel: &[u8]) -> f32 {
-    let [r, g, b, a] = [pixel[0], pixel[1], pixel[2], pixel[3]].map(|byte| f32::from(byte) / 255.0);
-    (0.2126 * r + 0.7152 * g + 0.0722 * b) * a + 1.0 - a
 }
 
 #[cfg(test)]

@@ -8,17 +8,21 @@ use crate::Outcome;
 
 /// How the program is called.
 const USAGE: &str = "\
-usage: motion [--models DIR] [--only NAME] [--rows raw|held] [--quick] [--pictures DIR]
+usage: motion [--ink] [--models DIR] [--only NAME] [--rows raw|held] [--quick] [--pictures DIR]
 
+  --ink           the ink of hatching and brushes, in place of strokes
   --models DIR    folder of the shared models
-  --only NAME     only models, or sequences, whose name holds NAME; may be given twice
+  --only NAME     only models, sequences, or looks of ink, whose name holds NAME; may be given more than once
   --rows ROWS     only raw strokes, or only those that hold from frame to frame
   --quick         twelve frames of each sequence at most
-  --pictures DIR  writes an SVG for the largest event of every cause: a frame, the next, and its raw lines";
+  --pictures DIR  writes an SVG for the largest event of every cause: a frame, the next, and its raw lines;
+                  of ink a PNG of the worst pair of frames of every row";
 
 /// What the user asked for.
 #[derive(Debug, Clone)]
 pub struct Arguments {
+    /// Whether ink is measured in place of strokes.
+    pub is_of_ink: bool,
     /// Folder of the shared models.
     pub models: PathBuf,
     /// Parts of the names to measure.
@@ -51,6 +55,7 @@ impl Arguments {
 /// How the program is called, where they are not understood.
 pub fn parse(words: impl Iterator<Item = String>) -> Outcome<Arguments> {
     let mut arguments = Arguments {
+        is_of_ink: false,
         models: shared_models(),
         only: Vec::new(),
         held: None,
@@ -61,6 +66,7 @@ pub fn parse(words: impl Iterator<Item = String>) -> Outcome<Arguments> {
     while let Some(word) = words.next() {
         let mut value = || words.next().ok_or(USAGE);
         match word.as_str() {
+            "--ink" => arguments.is_of_ink = true,
             "--models" => arguments.models = value()?.into(),
             "--only" => arguments.only.push(value()?),
             "--rows" => {

@@ -1,9 +1,12 @@
-//! Measures how still strokes lie while cameras and figures move, and prints tables in Markdown.
+//! Measures how still strokes lie while cameras and figures move, or with `--ink` how still the ink of hatching and
+//! brushes does, and prints tables in Markdown.
 //!
-//! Run by `cargo xtask measure motion`, which keeps what is printed. A measuring program, not a test: it fails only
-//! where loading or drawing fails.
+//! Run by `cargo xtask measure motion`, once for each, and `cargo xtask measure ink`, which keep what is printed. A
+//! measuring program, not a test: it fails only where loading or drawing fails.
 
 mod arguments;
+mod ink;
+mod ink_report;
 mod measured;
 mod picture;
 mod published;
@@ -22,8 +25,16 @@ use subject::Subject;
 type Outcome<T> = Result<T, Box<dyn Error>>;
 
 fn main() -> Outcome<()> {
-    // Measure the sequences that are asked for.
+    // Measure ink, where that is asked for.
     let arguments = arguments::parse(std::env::args().skip(1))?;
+    if arguments.is_of_ink {
+        let rows = ink::measured(&arguments)?;
+        ink_report::heading();
+        ink_report::tables(&rows);
+        return Ok(());
+    }
+
+    // Else measure the sequences that are asked for.
     let mut rows: Vec<Measured> = Vec::new();
     for file in subject::names() {
         let path = file.map(|(file, clip)| (arguments.models.join(file), clip));
