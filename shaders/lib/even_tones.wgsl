@@ -6,7 +6,7 @@
 
 // Whether the tones of a part are evened.
 fn is_evened(part: u32) -> bool {
-    return parts[part].tone_reach_px > 0.0;
+    return parts[part].tone_reach_px > 0.0 && !is_cut(part);
 }
 
 // Evened tones of a part in and around a pixel.

@@ -1,7 +1,8 @@
 // Ink and hatching at one point. Twin: npr_style::inking. The shader declares what its twin's layers hold.
 
 //# use lib/ink_tone
-//# use lib/paint
+//# use lib/ink_level
+//# use lib/cut_tone
 //# use lib/paper
 //# use lib/four
 //# use lib/second_layer
@@ -40,10 +41,12 @@ struct HatchCoord {
     down: vec2<f32>,
 }
 
-// How far strokes give way at a place: chart distortion, and how far the tone changes too fast for them, 0..1.
+// How far strokes give way at a place: chart distortion, how far the tone changes too fast for them, and how far they
+// are cut away, 0..1.
 struct Calm {
     chart_distortion: f32,
     abrupt: f32,
+    cut: f32,
 }
 
 // Tiles that a pixel covers across the strokes; if `isotropic`, the mean of both directions.
@@ -52,47 +55,15 @@ fn step_of(place: HatchCoord, isotropic: bool) -> f32 {
     return length(vec2<f32>(place.right.x, place.down.x));
 }
 
-// Two shares that triangle `id` has for the pen at these weights of its corners, 0..1: the distortion of its stroke
-// chart, and how much of its shade is left out.
-fn pen_at(id: u32, weights: vec3<f32>) -> vec2<f32> {
-    let at = triangles[(id & ID_MASK) - 1u].corners;
-    let a = unpack_shares(vertices[at.x].pen);
-    let b = unpack_shares(vertices[at.y].pen);
-    let c = unpack_shares(vertices[at.z].pen);
-    return vec2<f32>(blend(weights, a.x, b.x, c.x), blend(weights, a.y, b.y, c.y));
-}
-
-// The shares that npr_core::math::pack_shares packed.
-fn unpack_shares(packed: u32) -> vec2<f32> {
-    return vec2<f32>(f32(packed & 0xffffu), f32(packed >> 16u)) / 65535.0;
-}
-
-// Luminance of a place of which the pen leaves out a share of the shade.
-fn spared_level(l: f32, spared: f32) -> f32 {
-    return l + spared;
-}
-
 // How much of the surface of triangle `id` is inked at a place of the frame, 0..1; bits of `dark` are the lights whose
 // shadow falls there.
 fn ink_at(id: u32, part: u32, corners: Corners, px: vec2<f32>, dark: u32) -> f32 {
     let flags = parts[part].flags;
     if (flags & (PART_INK | PART_HATCH)) == 0u { return 0.0; }
-    let places = array<vec2<f32>, 3>(px, px + vec2<f32>(1.0, 0.0), px + vec2<f32>(0.0, 1.0));
+    let places = places_around(px);
     let weights = weights_around(corners.clip, ndc_at(view, px), pixel_ndc(view));
-    var l: array<f32, 3>;
-    let open = openness(corners, px);
-    for (var i = 0u; i < 3u; i++) {
-        let seen = open_at(open, places[i] - px);
-        let lit = coordinate_under(world_of(corners, weights[i]), normal_of(corners, weights[i]), dark, seen);
-        l[i] = level_of(part, lit.x);
-    }
-    if (flags & PART_SPARED) != 0u {
-        for (var i = 0u; i < 3u; i++) { l[i] = spared_level(l[i], pen_at(id, weights[i]).y); }
-    }
-    // Where the light changes faster than strokes follow one another, they do not show it.
-    let white = paint_at(id, part, weights);
-    let per_px = length(vec2<f32>(l[1] - l[0], l[2] - l[0])) * white[0];
-    for (var i = 0u; i < 3u; i++) { l[i] = painted_level(l[i], white[i], parts[part].threshold); }
+    let levels = levels_at(id, part, corners, px, weights, dark);
+    let l = levels.l;
     // Clamp the change: beyond a silhouette the surface runs on to anywhere.
     let darkens = clamp(2.0 * vec2<f32>(l[1] - l[0], l[2] - l[0]), vec2<f32>(-1.0), vec2<f32>(1.0));
     if (flags & PART_HATCH) == 0u {
@@ -102,8 +73,9 @@ fn ink_at(id: u32, part: u32, corners: Corners, px: vec2<f32>, dark: u32) -> f32
     if ink >= 0.0 { return on_paper(part, ink, px); }
     let chart_distortion = pen_at(id, weights[0]).x;
     var calm: Calm;
-    calm.chart_distortion = chart_distortion * white[0];
-    calm.abrupt = abruptness(per_px, parts[part].spacing_px);
+    calm.chart_distortion = chart_distortion * levels.white;
+    calm.abrupt = abruptness(levels.per_px, parts[part].spacing_px);
+    if (flags & PART_CUT) != 0u { calm.cut = 1.0 - hatch_left(px); }
     var place = place_in_hatch(id, part, weights, places);
     if (flags & PART_ISOTROPIC) != 0u && chart_distortion >= LOOSE {
         calm.chart_distortion = 0.0;
@@ -141,7 +113,7 @@ fn ink_of_hatch(part: u32, place: HatchCoord, l: f32, darkens: vec2<f32>, calm: 
 }
 
 fn hatch_coverage(part: u32, layer: Hatching, l: f32, darkens: vec2<f32>, calm: Calm) -> f32 {
-    let hatching = toned_hatch(untied(layer, calm.chart_distortion), calm.abrupt);
+    let hatching = toned_hatch(untied(layer, calm.chart_distortion), max(calm.abrupt, calm.cut));
     let slope = max(length(hatching.slope + darkens), hatching.hairline);
     return ink_coverage(tone_value(hatching.s, l), slope, parts[part].threshold);
 }
@@ -193,12 +165,12 @@ fn abruptness(per_px: f32, spacing_px: f32) -> f32 {
     return clamp((per_px * spacing_px - ABRUPT) / ABRUPT, 0.0, 1.0);
 }
 
-// A hatch that gives way to the edge of the tone itself, as far as `abrupt` says.
-fn toned_hatch(full: Hatching, abrupt: f32) -> Hatching {
+// A hatch that gives way to the edge of the tone itself, as far as `share` says.
+fn toned_hatch(full: Hatching, share: f32) -> Hatching {
     var hatching = full;
-    hatching.s += (NO_HATCH - hatching.s) * abrupt;
-    hatching.slope *= 1.0 - abrupt;
-    hatching.hairline *= 1.0 - abrupt;
+    hatching.s += (NO_HATCH - hatching.s) * share;
+    hatching.slope *= 1.0 - share;
+    hatching.hairline *= 1.0 - share;
     return hatching;
 }
 
@@ -222,10 +194,6 @@ fn scaled(layer: Hatching, by: vec2<f32>) -> Hatching {
     hatching.slope = layer.slope * by.y;
     hatching.hairline = layer.hairline;
     return hatching;
-}
-
-fn sharpen(s: f32, gain: f32) -> f32 {
-    return clamp(0.5 + (s - 0.5) * gain, 0.0, 1.0);
 }
 
 fn sharpened(part: u32, layer: Hatching) -> Hatching {

@@ -10,6 +10,11 @@ const ALL_TONE_BITS: u32 = 12u;
 // What a tone is multiplied by for four samples that have it.
 const FOUR_TONES: u32 = 585u;
 
+// What a hatch is to the knife, in the place of a tone.
+const CUT_TONE: u32 = 0u;
+const CUT_PAPER: u32 = 1u;
+const CUT_BLACK: u32 = 2u;
+
 // The tones of a ramp.
 const TONES: u32 = 8u;
 
@@ -32,6 +37,14 @@ const SHIFT_OF_CENTROID: f32 = 1.6;
 // Farthest that it moves along each axis, in radii.
 const SHIFT_OF_RADIUS: f32 = 0.7;
 
+// Largest radius of a disc all of whose pixels are counted, in pixels.
+const DENSE_REACH_PX: f32 = 12.0;
+
+// Pixels between those that a disc of a radius counts.
+fn stride_px(reach_px: f32) -> u32 {
+    return max(u32(ceil(reach_px / DENSE_REACH_PX)), 1u);
+}
+
 // Pixels to each side that tones are looked at, by the radius of the disc.
 fn far_px(reach_px: f32) -> u32 {
     return u32(ceil(reach_px * (1.0 + SHIFT_OF_RADIUS) + 0.5));
@@ -45,4 +58,14 @@ fn tag_of(part: u32) -> u32 {
 // The tone that a word of the evened map has most of, in steps.
 fn median_of(word: u32) -> u32 {
     return ((word & (CHANGED - 1u)) + STEP_PARTS / 2u) / STEP_PARTS;
+}
+
+// The part in a word of the evened map, or of the tone map.
+fn part_in(word: u32) -> u32 {
+    return (word >> ALL_TONE_BITS) - 1u;
+}
+
+// Whether the hatch of a part is cut out.
+fn is_cut(part: u32) -> bool {
+    return (parts[part].flags & PART_CUT) != 0u;
 }

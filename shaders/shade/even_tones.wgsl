@@ -29,20 +29,34 @@ struct Disc {
     moment: vec2<f32>,
 }
 
-// Tones of a part over a disc, whose middle is moved from a pixel by `shift` pixels.
+// Bits of a word that stands for a pixel that no disc counts.
+const UNCOUNTED: u32 = 0xffffffffu;
+
+// The word with the tones of a pixel in a disc of a part: those of the part itself. To the knife all hatches that are
+// cut out are one sheet of tone, and all else but black is paper.
+fn counted(other: u32, part: u32) -> u32 {
+    if !is_cut(part) { return select(UNCOUNTED, other, other >> ALL_TONE_BITS == part + 1u); }
+    if other == 0u || !is_cut(part_in(other)) { return CUT_PAPER * FOUR_TONES; }
+    return select(other, UNCOUNTED, (other & (TONES - 1u)) == CUT_BLACK);
+}
+
+// Tones over a disc round a pixel that shows a part; its middle is moved from there by `shift` pixels.
 fn disc_at(pixel: vec2<u32>, shift: vec2<f32>, part: u32) -> Disc {
     var disc: Disc;
     let reach_px = parts[part].tone_reach_px;
+    let stride = stride_px(reach_px);
     let far = u32(ceil(reach_px + 0.5 + max(abs(shift.x), abs(shift.y))));
     let most = (reach_px + 0.5) * (reach_px + 0.5);
-    let low = max(pixel, vec2<u32>(far)) - far;
-    let high = min(pixel + far + 1u, window.size);
-    for (var y = low.y; y < high.y; y++) {
-        for (var x = low.x; x < high.x; x++) {
+    let steps = vec2<u32>((far + stride - 1u) / stride);
+    let low = pixel - min(steps, pixel / stride) * stride;
+    let high = min(pixel + steps * stride + 1u, window.size);
+    for (var y = low.y; y < high.y; y += stride) {
+        for (var x = low.x; x < high.x; x += stride) {
             let away = vec2<f32>(vec2<u32>(x, y)) - vec2<f32>(pixel) - shift;
             let square = away.x * away.x + away.y * away.y;
-            let other = tone_map[y * window.size.x + x];
-            if square > most || other >> ALL_TONE_BITS != part + 1u { continue; }
+            if square > most { continue; }
+            let other = counted(tone_map[y * window.size.x + x], part);
+            if other == UNCOUNTED { continue; }
             let weight = min(reach_px + 0.5 - sqrt(square), 1.0);
             let first = other & (TONES - 1u);
             if (other & ((1u << ALL_TONE_BITS) - 1u)) == first * FOUR_TONES {
@@ -63,8 +77,9 @@ fn disc_at(pixel: vec2<u32>, shift: vec2<f32>, part: u32) -> Disc {
 fn evened_word(pixel: vec2<u32>, word: u32) -> u32 {
     // Keep the tone where all around are alike.
     if word == 0u { return 0u; }
-    let part = (word >> ALL_TONE_BITS) - 1u;
+    let part = part_in(word);
     let tone = word & (TONES - 1u);
+    if is_cut(part) && tone != CUT_TONE { return tag_of(part) | select(0u, STEP_PARTS, tone == CUT_PAPER); }
     if textureLoad(tone_flags, pixel / TONE_TILE, 0).x == 0u { return tag_of(part) | (tone * STEP_PARTS); }
 
     // Weigh the tones of the part around it, away from other parts.

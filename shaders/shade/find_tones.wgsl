@@ -35,6 +35,7 @@
 //# use lib/shadow
 //# use lib/tone_word
 //# use lib/ink_step
+//# use lib/ink_level
 
 // Steps that the light of a triangle has passed at a sample of the pixel whose middle is at `px`.
 fn steps_at(id: u32, constants: TriangleConstants, sample: u32, px: vec2<f32>) -> u32 {
@@ -57,8 +58,11 @@ fn tone_word(pixel: vec2<u32>) -> u32 {
     let part = triangles[id - 1u].part;
     if parts[part].tone_reach_px == 0.0 { return 0u; }
 
-    // Count the steps at every sample that shows another triangle of the part.
+    // Look at the middle of the pixel what a hatch that is cut out is there.
     let px = frame_at(window, pixel);
+    if is_cut(part) { return ((part + 1u) << ALL_TONE_BITS) | (cut_tone_at(id, triangles[id - 1u], px) * FOUR_TONES); }
+
+    // Count the steps at every sample that shows another triangle of the part.
     var first = 0u;
     var word = 0u;
     for (var sample = 0u; sample < sample_count(); sample++) {

@@ -22,6 +22,39 @@ fn first_tone(start: vec2<u32>, end: vec2<u32>) -> u32 {
     return 0u;
 }
 
+// Pixels to each side of a tile within which a hatch that it shows may be cut; 0 if it shows none.
+fn cut_far_px(start: vec2<u32>, end: vec2<u32>) -> u32 {
+    var far = 0u;
+    for (var y = start.y; y < end.y; y++) {
+        for (var x = start.x; x < end.x; x++) {
+            let word = tone_map[y * window.size.x + x];
+            if is_cut_tone(word) { far = max(far, far_px(parts[part_in(word)].tone_reach_px)); }
+        }
+    }
+    return far;
+}
+
+// Whether a pixel shows the hatch of a part that is cut out.
+fn is_cut_tone(word: u32) -> bool {
+    return word != 0u && (word & (TONES - 1u)) == CUT_TONE && is_cut(part_in(word));
+}
+
+// Whether a tile shows a hatch that is cut out, and anything else lies within its reach.
+fn is_cut_around(tile: vec2<u32>) -> bool {
+    let start = tile * TONE_TILE;
+    let end = min(start + TONE_TILE, window.size);
+    let far = cut_far_px(start, end);
+    if far == 0u { return false; }
+    let low = max(start, vec2<u32>(far)) - far;
+    let high = min(end + far, window.size);
+    for (var y = low.y; y < high.y; y++) {
+        for (var x = low.x; x < high.x; x++) {
+            if !is_cut_tone(tone_map[y * window.size.x + x]) { return true; }
+        }
+    }
+    return false;
+}
+
 // Whether tones within reach of a tile may change.
 fn has_steps_around(tile: vec2<u32>) -> bool {
     // Find how far the parts of the tile reach.
@@ -29,7 +62,7 @@ fn has_steps_around(tile: vec2<u32>) -> bool {
     let end = min(start + TONE_TILE, window.size);
     let first = first_tone(start, end);
     if first == 0u { return false; }
-    let far = far_px(parts[(first >> ALL_TONE_BITS) - 1u].tone_reach_px);
+    let far = far_px(parts[part_in(first)].tone_reach_px);
     let low = max(start, vec2<u32>(far)) - far;
     let high = min(end + far, window.size);
 
@@ -54,5 +87,6 @@ fn vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4<f32> {
 
 @fragment
 fn fragment(@builtin(position) at: vec4<f32>) -> @location(0) u32 {
-    return select(0u, 1u, has_steps_around(vec2<u32>(at.xy)));
+    let tile = vec2<u32>(at.xy);
+    return select(0u, 1u, has_steps_around(tile) || is_cut_around(tile));
 }

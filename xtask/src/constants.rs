@@ -105,6 +105,8 @@ const TWINS: &[Twins] = &[
     twins("lib/texture.wgsl", "", "npr-core/src/texture.rs", ""),
     twins("lib/tone_row.wgsl", "", "npr-style/src/tone_row.rs", ""),
     twins("lib/toon.wgsl", "", "npr-style/src/toon.rs", ""),
+    twins("lib/ink_level.wgsl", "", "npr-style/src/cut_tone.rs", ""),
+    twins("lib/tone_word.wgsl", "CUT_", "npr-style/src/cut_tone.rs", ""),
     twins("lib/tone_word.wgsl", "TONE_TILE", "npr-style/src/even_tones.rs", "TILE"),
     twins("lib/tone_word.wgsl", "", "npr-style/src/even_tones.rs", ""),
     twins("shade/even_tones.wgsl", "", "npr-style/src/even_tones.rs", ""),
@@ -136,7 +138,7 @@ const TWINS: &[Twins] = &[
 ];
 
 /// Constants without a constant in Rust, and what they stand for.
-const ALONE: [(&str, &str, &str); 2] = [
+const ALONE: [(&str, &str, &str); 3] = [
     (
         "lib/sampling.wgsl",
         "WRAP_CLAMP",
@@ -146,6 +148,11 @@ const ALONE: [(&str, &str, &str); 2] = [
         "lib/sampling.wgsl",
         "WRAP_MIRROR",
         "`Wrap::Mirror as u32`, an enum",
+    ),
+    (
+        "shade/even_tones.wgsl",
+        "UNCOUNTED",
+        "`None` of `ToneMap::counted`",
     ),
 ];
 

@@ -385,6 +385,8 @@ impl Part {
     pub const WORLD_LINE: u32 = 1 << 25;
     /// The pen leaves out some of the shade of its vertices.
     pub const SPARED: u32 = 1 << 26;
+    /// Its hatch is cut out: it leaves no strip that is narrower than the spacing of its strokes.
+    pub const CUT: u32 = 1 << 27;
     /// Its lines are found where its faces fold, whatever its normals say.
     pub const FOLDS: u32 = 1 << 30;
     /// Any outline.

@@ -230,7 +230,10 @@ fn set_pen(
     }
     let dotted = matches!(hatch.pattern, Pattern::Stipple | Pattern::Dots);
     let isotropic = dotted || !hatch.image.is_empty();
+    // Points set one by one may stand alone.
+    let is_cut = hatch.pattern != Pattern::Stipple || !hatch.image.is_empty();
     part.flags |= Part::HATCH
+        | bit(Part::CUT, is_cut)
         | bit(Part::ON_SCREEN, mapping == Mapping::Screen)
         | bit(Part::ON_SURFACE, mapping == Mapping::Surface)
         | bit(Part::ISOTROPIC, isotropic)

@@ -25,6 +25,7 @@ use npr_core::texture::{self, TextureStore, Wrap};
 use npr_core::window::View;
 use npr_mesh::curvature::tightest;
 use npr_style::compose::Compose;
+use npr_style::cut_tone::cut_reach_px;
 use npr_style::even_tones::{has_steps, reach_px};
 use npr_style::ramp::Level;
 use npr_stylesheet::{
@@ -147,6 +148,17 @@ impl StyledModel {
         let surfaces = parts.len() - usize::from(smoke_part.is_some());
         for part in parts[..surfaces].iter_mut().filter(|part| has_steps(part)) {
             part.tone_reach_px = reach_px(least_px);
+        }
+
+        // Cut out the hatch of others.
+        for part in &mut parts[..surfaces] {
+            match part.tone_reach_px == 0.0 {
+                true if part.flags & Part::CUT != 0 => {
+                    part.tone_reach_px = cut_reach_px(part);
+                }
+                true => {}
+                false => part.flags &= !Part::CUT,
+            }
         }
         Ok(Self {
             vertices: styled_vertices(model, style, options, (&pens, &calming)),

@@ -9,6 +9,8 @@
 //!    Where the median differs from the tone of the first sample, the tone is *changed*. Its edge is blended over one
 //!    pixel by how far the share of the disc lies from a half: blur and cut, as [Merriman, Bence & Osher 1992] move
 //!    curves.
+//!
+//!    Hatches that are cut out ([`cut_tone`](crate::cut_tone)) go the same way.
 //! 4. The last pass looks at the medians of a pixel and of its neighbours. Where all are the same, the pixel has that
 //!    tone, whatever its samples say. Where they differ and none is changed, an edge of the light goes through, and the
 //!    samples show it as they do without all this. Where one is changed, the blended edge is shown.
@@ -66,15 +68,28 @@ const SHIFT_OF_RADIUS: f32 = 0.7;
 /// Pixels below which a disc stays where it is.
 const LEAST_SHIFT_PX: f32 = 0.05;
 
-/// Largest radius of the disc, in pixels: its cost grows with its area.
+/// Largest radius of the disc of an evened tone, in pixels: its cost grows with its area.
 pub const REACH_PX_MAX: f32 = 8.0;
+
+/// Largest radius of a disc all of whose pixels are counted, in pixels.
+const DENSE_REACH_PX: f32 = 12.0;
 
 /// Radius in pixels of the disc whose median drops strips narrower than `least_px`. 0 if nothing can be that narrow.
 pub fn reach_px(least_px: f32) -> f32 {
     if least_px < 0.5 {
         return 0.0;
     }
-    (least_px / STRIP_OF_RADIUS).min(REACH_PX_MAX)
+    radius_of(least_px).min(REACH_PX_MAX)
+}
+
+/// Radius of a disc whose median drops strips that are narrower than this, in the same unit.
+pub(crate) fn radius_of(least: f32) -> f32 {
+    least / STRIP_OF_RADIUS
+}
+
+/// Pixels between those that a disc of a radius counts.
+fn stride_px(reach_px: f32) -> u32 {
+    ((reach_px / DENSE_REACH_PX).ceil() as u32).max(1)
 }
 
 /// Pixels to each side that tones are looked at, by the radius of the disc.
@@ -89,6 +104,11 @@ pub fn has_steps(part: &Part) -> bool {
     let has_room = part.ramp[TONES as usize - 1][3] >= Level::UNUSED;
     let has_ink = has_room && ink_step(part) < Level::UNUSED;
     part.flags & others == 0 && (is_even || part.softness == 0.0) && (!is_even || has_ink)
+}
+
+/// Whether the tones of a part are evened.
+fn is_evened(part: &Part) -> bool {
+    part.tone_reach_px > 0.0 && part.flags & Part::CUT == 0
 }
 
 /// Steps that the light passes at coordinate `x`: those of the ramp, and the end of the ink.
@@ -138,7 +158,7 @@ pub struct ToneMap<'a> {
 pub fn flag_tones(map: &ToneMap<'_>, flags: &mut [u32]) {
     let [across, _] = tiles_of(map.size);
     each_texel(across, flags, |x, y| {
-        u32::from(map.has_steps_around([x, y]))
+        u32::from(map.has_steps_around([x, y]) || map.is_cut_around([x, y]))
     });
 }
 
@@ -155,8 +175,13 @@ pub fn even_tones(map: &ToneMap<'_>, flags: &[u32], evened: &mut [u32]) {
 }
 
 /// The part in a word of the evened map.
-fn tag_of(part: u32) -> u32 {
+pub(crate) fn tag_of(part: u32) -> u32 {
     (part + 1) << (STEP_BITS + 1)
+}
+
+/// The part in a word of the evened map, or of the tone map.
+pub(crate) fn part_in(word: u32) -> u32 {
+    (word >> ALL_TONE_BITS) - 1
 }
 
 /// The tone that a word of the evened map has most of, in steps.
@@ -194,13 +219,13 @@ impl ToneMap<'_> {
         false
     }
 
-    fn row(&self, y: u32, columns: Range<u32>) -> &[u32] {
+    pub(crate) fn row(&self, y: u32, columns: Range<u32>) -> &[u32] {
         let at = |x: u32| (y * self.size[0] + x) as usize;
         &self.words[at(columns.start)..at(columns.end)]
     }
 
-    fn part_of(&self, word: u32) -> &Part {
-        &self.parts[((word >> ALL_TONE_BITS) - 1) as usize]
+    pub(crate) fn part_of(&self, word: u32) -> &Part {
+        &self.parts[part_in(word) as usize]
     }
 
     /// Word of the evened map of a pixel.
@@ -210,14 +235,17 @@ impl ToneMap<'_> {
         if word == 0 {
             return 0;
         }
-        let tag = tag_of((word >> ALL_TONE_BITS) - 1);
+        let tag = tag_of(part_in(word));
         let tone = word & (TONES - 1);
+        let reach_px = self.part_of(word).tone_reach_px;
+        if let Some(steps) = self.beside_cut_tone(word) {
+            return tag | steps;
+        }
         if !is_flagged {
             return tag | (tone * STEP_PARTS);
         }
 
         // Weigh the tones of the part around it, away from other parts.
-        let reach_px = self.part_of(word).tone_reach_px;
         let mut disc = self.disc([x, y], [0.0; 2], word);
         let most = SHIFT_OF_RADIUS * reach_px;
         let along = |moment: f32| (moment * (SHIFT_OF_CENTROID / disc.sum)).clamp(-most, most);
@@ -239,21 +267,29 @@ impl ToneMap<'_> {
         tag | changed | steps
     }
 
-    /// Tones of the part of a word over a disc, whose middle is moved from a pixel by `shift` pixels.
+    /// Tones that a word counts over a disc, whose middle is moved from a pixel by `shift` pixels.
     fn disc(&self, [x, y]: [u32; 2], shift: [f32; 2], word: u32) -> Disc {
         let reach_px = self.part_of(word).tone_reach_px;
+        let stride = stride_px(reach_px);
         let far = (reach_px + 0.5 + shift[0].abs().max(shift[1].abs())).ceil() as u32;
         let most = (reach_px + 0.5) * (reach_px + 0.5);
-        let columns = x.saturating_sub(far)..(x + far + 1).min(self.size[0]);
+        let steps = far.div_ceil(stride);
+        let from = |at: u32| at - steps.min(at / stride) * stride;
+        let to = |at: u32, side: u32| (at + steps * stride + 1).min(side);
+        let columns = from(x)..to(x, self.size[0]);
         let mut disc = Disc::default();
-        for v in y.saturating_sub(far)..(y + far + 1).min(self.size[1]) {
+        for v in (from(y)..to(y, self.size[1])).step_by(stride as usize) {
             let down = v as f32 - y as f32 - shift[1];
-            for (u, other) in columns.clone().zip(self.row(v, columns.clone())) {
+            let row = columns.clone().zip(self.row(v, columns.clone()));
+            for (u, other) in row.step_by(stride as usize) {
                 let right = u as f32 - x as f32 - shift[0];
                 let square = right * right + down * down;
-                if other >> ALL_TONE_BITS == word >> ALL_TONE_BITS && square <= most {
+                if square > most {
+                    continue;
+                }
+                if let Some(tones) = self.counted(*other, word) {
                     let weight = (reach_px + 0.5 - square.sqrt()).min(1.0);
-                    disc.add(*other, weight);
+                    disc.add(tones, weight);
                     disc.sum += weight;
                     disc.moment[0] += weight * right;
                     disc.moment[1] += weight * down;
@@ -261,6 +297,15 @@ impl ToneMap<'_> {
             }
         }
         disc
+    }
+
+    /// The word with the tones of a pixel in a disc around another: those of the same part, or of the sheet of a hatch
+    /// that is cut out. `None` where the disc does not count them.
+    fn counted(&self, other: u32, word: u32) -> Option<u32> {
+        if self.is_cut(word) {
+            return self.on_sheet(other).map(|tone| tone * FOUR_TONES);
+        }
+        (other >> ALL_TONE_BITS == word >> ALL_TONE_BITS).then_some(other)
     }
 }
 
@@ -290,8 +335,14 @@ impl Layers<'_> {
             return 0;
         }
 
-        // Count the steps at every sample that shows another triangle of the part.
+        // Look at the middle of the pixel what a hatch that is cut out is there.
         let pixel = self.window.frame_at(x, y);
+        if part.flags & Part::CUT != 0 {
+            let tone = self.cut_tone_at(id, pixel);
+            return ((number + 1) << ALL_TONE_BITS) | (tone * FOUR_TONES);
+        }
+
+        // Count the steps at every sample that shows another triangle of the part.
         let first = self.steps_at(id, 0, pixel);
         let mut word = ((number + 1) << ALL_TONE_BITS) | (first * FOUR_TONES);
         for (sample, other) in (0u32..).zip(ids.iter()).skip(1) {
@@ -318,7 +369,7 @@ impl Layers<'_> {
 
     /// The colour that a triangle has all over, if its tones are not evened.
     pub(crate) fn whole_color(&self, known: &TriangleConstants) -> Option<[f32; 3]> {
-        let is_evened = self.parts[known.part as usize].tone_reach_px > 0.0;
+        let is_evened = is_evened(&self.parts[known.part as usize]);
         known.whole().filter(|_| !is_evened)
     }
 
@@ -327,7 +378,7 @@ impl Layers<'_> {
     pub(crate) fn is_settled(&self, x: u32, y: u32, seen: &[u32]) -> bool {
         let seen = seen.iter().filter(|id| **id != 0);
         let parts = seen.map(|id| self.known[(id - 1) as usize].part);
-        let evened = |part: &u32| self.parts[*part as usize].tone_reach_px > 0.0;
+        let evened = |part: &u32| is_evened(&self.parts[*part as usize]);
         let Some(own) = parts.clone().find(evened) else {
             return true;
         };
@@ -342,7 +393,7 @@ impl Layers<'_> {
     pub(crate) fn evened_tone(&self, number: u32, frame_px: [f32; 2]) -> Option<Evened> {
         // Take the tone that all around have, or the edge that was blended.
         let part = &self.parts[number as usize];
-        if part.tone_reach_px == 0.0 {
+        if !is_evened(part) {
             return None;
         }
         let around = self.evened_around(self.window.pixel_at(frame_px), number);

@@ -164,6 +164,23 @@ struct Calm {
     chart_distortion: f32,
     /// How far the tone changes too fast for strokes, 0..1.
     abrupt: f32,
+    /// How far strokes are cut away, 0..1.
+    cut: f32,
+}
+
+/// Luminance of the shade ramp at a pixel and its neighbours to the right and below, with the paint under it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct InkLevels {
+    pub l: [f32; 3],
+    /// White that paint leaves at the pixel.
+    white: f32,
+    /// How much the light under that paint changes over a pixel.
+    per_px: f32,
+}
+
+/// The places of a pixel and of its neighbours to the right and below.
+fn places_around(px: [f32; 2]) -> [[f32; 2]; 3] {
+    [px, [px[0] + 1.0, px[1]], [px[0], px[1] + 1.0]]
 }
 
 impl Layers<'_> {
@@ -180,15 +197,10 @@ impl Layers<'_> {
         if part.flags & (Part::INK | Part::HATCH) == 0 {
             return 0.0;
         }
-        let places = [px, [px[0] + 1.0, px[1]], [px[0], px[1] + 1.0]];
         let (ndc, step) = (self.view.ndc_at(px), self.view.pixel_ndc());
         let weights = weights_around(corners.clip, ndc, step);
-        let mut lit = self.levels_at(part, corners, px, weights, dark);
-        if part.flags & Part::SPARED != 0 {
-            lit = std::array::from_fn(|i| spared_level(lit[i], self.pen_at(id, weights[i])[1]));
-        }
-        let white = self.paint_at(id, part, weights);
-        let l: [f32; 3] = std::array::from_fn(|i| painted_level(lit[i], white[i], part.threshold));
+        let levels = self.levels_at((id, part), corners, px, weights, dark);
+        let l = levels.l;
         // Clamp the change: beyond a silhouette the surface runs on to anywhere.
         let darkens = [
             (2.0 * (l[1] - l[0])).clamp(-1.0, 1.0),
@@ -202,18 +214,21 @@ impl Layers<'_> {
             return on_paper(part, ink, px);
         }
         let [chart_distortion, _] = self.pen_at(id, weights[0]);
-        let per_px = length([lit[1] - lit[0], lit[2] - lit[0]]) * white[0];
-        let abrupt = abruptness(per_px, part.spacing_px);
+        let abrupt = abruptness(levels.per_px, part.spacing_px);
         let (place, chart_distortion) =
             if part.flags & Part::ISOTROPIC != 0 && chart_distortion >= LOOSE {
                 (self.place_on_screen(part, px), 0.0)
             } else {
-                let place = self.place_in_hatch(id, part, weights, places);
-                (place, chart_distortion * white[0])
+                let place = self.place_in_hatch(id, part, weights, places_around(px));
+                (place, chart_distortion * levels.white)
             };
         let calm = Calm {
             chart_distortion,
             abrupt,
+            cut: match part.flags & Part::CUT {
+                0 => 0.0,
+                _ => 1.0 - self.hatch_left(px),
+            },
         };
         on_paper(
             part,
@@ -232,7 +247,8 @@ impl Layers<'_> {
         calm: Calm,
     ) -> f32 {
         let coverage = |layer: Hatching| {
-            let hatching = toned_hatch(untied(layer, calm.chart_distortion), calm.abrupt);
+            let share = calm.abrupt.max(calm.cut);
+            let hatching = toned_hatch(untied(layer, calm.chart_distortion), share);
             let [right, down] = hatching.slope;
             let slope = length([right + darkens[0], down + darkens[1]]).max(hatching.hairline);
             ink_coverage(tone_value(hatching.s, l), slope, part.threshold)
@@ -258,8 +274,29 @@ impl Layers<'_> {
         }
     }
 
+    /// How dark triangle `id` is to the pen at a position of the frame: light, faces and paint together.
+    pub(crate) fn levels_at(
+        &self,
+        (id, part): (u32, &Part),
+        corners: &Corners<'_>,
+        px: [f32; 2],
+        weights: [[f32; 3]; 3],
+        dark: u32,
+    ) -> InkLevels {
+        let mut lit = self.lit_levels(part, corners, px, weights, dark);
+        if part.flags & Part::SPARED != 0 {
+            lit = std::array::from_fn(|i| spared_level(lit[i], self.pen_at(id, weights[i])[1]));
+        }
+        let white = self.paint_at(id, part, weights);
+        InkLevels {
+            l: std::array::from_fn(|i| painted_level(lit[i], white[i], part.threshold)),
+            white: white[0],
+            per_px: length([lit[1] - lit[0], lit[2] - lit[0]]) * white[0],
+        }
+    }
+
     /// Luminance of the shade ramp of a triangle at a position of the frame, one pixel to the right and one below.
-    fn levels_at(
+    fn lit_levels(
         &self,
         part: &Part,
         corners: &Corners<'_>,
@@ -402,6 +439,7 @@ impl Layers<'_> {
         let calm = Calm {
             chart_distortion: 0.0,
             abrupt: abruptness(length(darker), part.spacing_px),
+            cut: 0.0,
         };
         self.ink_of_hatch(part, &place, l, darkens, calm)
     }
@@ -432,12 +470,12 @@ pub fn abruptness(per_px: f32, spacing_px: f32) -> f32 {
     ((per_px * spacing_px - ABRUPT) / ABRUPT).clamp(0.0, 1.0)
 }
 
-/// A hatch that gives way to the edge of the tone itself, as far as `abrupt` says.
-fn toned_hatch(hatching: Hatching, abrupt: f32) -> Hatching {
-    let s = hatching.s + (NO_HATCH - hatching.s) * abrupt;
+/// A hatch that gives way to the edge of the tone itself, as far as `share` says.
+fn toned_hatch(hatching: Hatching, share: f32) -> Hatching {
+    let s = hatching.s + (NO_HATCH - hatching.s) * share;
     Hatching {
-        hairline: hatching.hairline * (1.0 - abrupt),
-        ..scaled(hatching, [s, 1.0 - abrupt])
+        hairline: hatching.hairline * (1.0 - share),
+        ..scaled(hatching, [s, 1.0 - share])
     }
 }
 

@@ -20,6 +20,7 @@ pub mod beam;
 pub mod brush;
 pub mod compose;
 mod corners;
+pub mod cut_tone;
 mod dome;
 pub mod draw_mask;
 pub mod even_tones;

@@ -44,7 +44,7 @@ macro_rules! presets {
 /// The newest version of every preset, in the order of lists.
 const PRESETS: &[Preset] = presets![
     "toon" 5 "../presets/toon.toml",
-    "ink" 8 "../presets/ink.toml",
+    "ink" 9 "../presets/ink.toml",
     "g-pen" 6 "../presets/g-pen.toml",
     "technical" 6 "../presets/technical.toml",
     "comic-silver" 5 "../presets/comic-silver.toml",
@@ -151,6 +151,7 @@ const OLDER: &[Preset] = presets![
     "ink" 5 "../presets/older/ink-5.toml",
     "ink" 6 "../presets/older/ink-6.toml",
     "ink" 7 "../presets/older/ink-7.toml",
+    "ink" 8 "../presets/older/ink-8.toml",
     "ink-wash" 1 "../presets/older/ink-wash-1.toml",
     "ink-wash" 2 "../presets/older/ink-wash-2.toml",
     "ink-wash" 3 "../presets/older/ink-wash-3.toml",

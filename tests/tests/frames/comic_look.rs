@@ -652,3 +652,34 @@ fn a_beam_runs_from_its_rim_to_its_middle() {
         assert_eq!(pixel(&frame, 160 + 87, 120), rim.1);
     }
 }
+
+#[test]
+fn shade_narrower_than_its_strokes_are_apart_is_black_or_paper() {
+    // Stand upright strips in an even tone, as a draughtsman would cut them out of a sheet.
+    let inked = |width_px: f32, pattern: &str, light_at: &str| {
+        let width = width_px * 2.5 / SIZE[1] as f32;
+        let strip = placed(&plane(2, 8), [width, 2.0, 1.0], [-0.5 * width, -1.0, 0.0]);
+        let settings = [
+            "ink.tone=hatch",
+            "ink.mapping=screen",
+            "ink.dark_at=0.1",
+            &format!("ink.light_at={light_at}"),
+            &format!("ink.hatch.pattern={pattern}"),
+        ];
+        let scene = scene_of(&[Object::new("Strip", strip)]);
+        let middle = 0.4 * width_px;
+        let columns = (160.0 - middle) as u32..(160.0 + middle) as u32;
+        darkness(&draw(&scene, &settings), columns, 60..180)
+    };
+
+    // Tone shows where it has room, and gives way to its own edge where it has none.
+    for pattern in ["dots", "parallel"] {
+        let [light, dark] = ["0.72", "1.0"].map(|at| inked(60.0, pattern, at));
+        assert!(
+            light > 0.1 && dark > light && dark < 0.9,
+            "{pattern}: {light} {dark}"
+        );
+        assert_eq!(inked(7.0, pattern, "0.72"), 0.0, "{pattern}");
+        assert_eq!(inked(7.0, pattern, "1.0"), 1.0, "{pattern}");
+    }
+}

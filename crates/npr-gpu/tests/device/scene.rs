@@ -118,6 +118,7 @@ impl Scene {
             | Part::DOUBLE_SIDED
             | Part::HATCH
             | Part::ISOTROPIC
+            | Part::CUT
             | Part::CRISP
             | Part::STREAK
             | Part::TONE_ROW;
@@ -128,6 +129,7 @@ impl Scene {
             line_texture: texture,
             line_depth_row: hues[1],
             line_depth: [2.0, 0.25],
+            tone_reach_px: 3.5,
             ..part(2, flags, texture)
         };
         scene.add(&uv_sphere(16, 10), hatched, &mut random);
