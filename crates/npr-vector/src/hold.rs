@@ -4,8 +4,8 @@
 //! `remembered` keeps samples of a frame's strokes by their place on the surface, and finds them again in the next
 //! view. Every sample of a new stroke votes with the remembered one that it is (`votes`): for a way to run, for an
 //! identity (`identity`), which also keeps its place in the order (`order`), and for a shift of the texture
-//! coordinate (`phase`). Closed strokes start where they did (`seam`). Strokes that are parts of one line do so together
-//! (`parts`).
+//! coordinate (`phase`). Closed strokes start where they did (`seam`). Strokes that are parts of one line do all that
+//! together (`parts`).
 //!
 //! Differs: the paper fits a slope to the votes of a run, too; here a pixel along a stroke stays a pixel of its
 //! texture, so that dashes and stamps never stretch. Where parts of one stroke had textures of their own these stay,
@@ -20,11 +20,11 @@ mod phase;
 mod remembered;
 mod seam;
 mod votes;
+mod way;
 
-use crate::mesh_lines::run::distance;
 use crate::mesh_lines::{DrawnBetween, Tip};
 use crate::project::Projector;
-use crate::stroke::{LinePart, Stroke, StrokePoint};
+use crate::stroke::Stroke;
 use between::drawn_between;
 use glam::DVec3;
 use identity::settle_ids;
@@ -32,6 +32,7 @@ use npr_mesh::half_edge::HalfEdgeMesh;
 use rayon::prelude::*;
 use remembered::{Known, Line, Place, sampled};
 use votes::{Tally, Vote, tally, votes_of};
+use way::{measure, reverse};
 
 /// Frames for which ink that nothing took over is remembered: what is hidden for a moment comes back as it was.
 const FRAMES_MOST: u8 = 4;
@@ -107,10 +108,10 @@ impl HeldStrokes {
     /// `shape` is the surface in the pose of this frame, whatever pose it had before: its vertices, edges and faces
     /// keep their numbers. A stroke runs the way that most of its samples ran, and has the identity that most of them
     /// had, unless another has more of it; what is new keeps its own, made of mesh edges. `u` is shifted as a whole
-    /// where all samples agree, else by parts of 8 pixels and more; that of a part of a line that nobody saw before goes on
-    /// from the part beside it. Strokes keep their order, and new ones come behind
-    /// those that they came behind. After a cut nothing is taken over: where the camera turns by more than 30 degrees,
-    /// or fewer than a fifth of the samples find one of the frame before.
+    /// where all samples agree, else by parts of 8 pixels and more; that of a part of a line that nobody saw before
+    /// goes on from the part beside it. Strokes keep their order, and new ones come behind those that they came behind.
+    /// After a cut nothing is taken over: where the camera turns by more than 30 degrees, or fewer than a fifth of the
+    /// samples find one of the frame before.
     ///
     /// O(pixels of line), on all threads, with the same result for any number of them.
     pub fn hold(&mut self, strokes: &mut Vec<Stroke>, shape: &HalfEdgeMesh, projector: &Projector) {
@@ -258,25 +259,6 @@ impl HeldStrokes {
             samples: [from, to],
             ..line
         });
-    }
-}
-
-/// The same stroke, travelled the other way; a closed one keeps its first point. `u` is measured anew by [`phase`].
-fn reverse(stroke: &mut Stroke) {
-    match stroke.closed {
-        true => stroke.points[1..].reverse(),
-        false => stroke.points.reverse(),
-    }
-    stroke.part = stroke.part.map(LinePart::reversed);
-    measure(&mut stroke.points);
-}
-
-/// Gives every point the way from the first as its `u`.
-fn measure(points: &mut [StrokePoint]) {
-    let mut last: Option<StrokePoint> = None;
-    for point in points {
-        point.u = last.map_or(0.0, |last| last.u + distance(last.position, point.position));
-        last = Some(*point);
     }
 }
 

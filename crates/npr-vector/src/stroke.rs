@@ -50,8 +50,8 @@ pub struct Stroke {
 pub struct LinePart {
     /// Identity of the line: that of one of its strokes.
     pub line: u64,
-    /// Pixels from the start of the line to the first point of the stroke and to its last one, along the line and behind
-    /// what hides it. The second is less than the first where the stroke runs against the line.
+    /// Pixels from the start of the line to the first point of the stroke and to its last one, along the line and
+    /// behind what hides it. The second is less than the first where the stroke runs against the line.
     pub ends_px: [f64; 2],
     /// Length of the whole line in the picture, from its first seen point to its last, in pixels.
     pub length_px: f64,

@@ -3,7 +3,7 @@
 use super::identity::{Claimant, settled};
 use super::remembered::Line;
 use super::votes::Tally;
-use super::{measure, reverse};
+use super::way::{measure, reverse};
 use crate::stroke::{LinePart, Stroke};
 use std::collections::BTreeMap;
 

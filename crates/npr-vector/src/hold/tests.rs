@@ -1,5 +1,5 @@
 use super::*;
-use crate::stroke::Kind;
+use crate::stroke::{Kind, LinePart, StrokePoint};
 use crate::surface_location::SurfaceLocation;
 use npr_core::camera::{Camera, Projection};
 use npr_core::geometry::NONE;
