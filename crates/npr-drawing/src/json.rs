@@ -2,9 +2,9 @@
 //!
 //! One stroke per line of text. Pixels are written to a thousandth, depth, texture coordinate and world with seven
 //! digits. Flat colour is not part of it, and colours of lines only of strokes that change theirs: `colors`, four
-//! bytes a point, sRGB and alpha. Strokes that are parts of a line which goes on behind something have a key `part`: the
-//! id of the `line`, how many pixels of it lie before the first point (`from`) and before the last (`to`), and its whole
-//! `length`, with what is hidden between its parts.
+//! bytes a point, sRGB and alpha. Strokes that are parts of a line which goes on behind something have a key `part`:
+//! the id of the `line`, how many pixels of it lie before the first point (`from`) and before the last (`to`), and its
+//! whole `length`, with what is hidden between its parts.
 
 use npr_core::decoding::guard;
 use npr_core::number::{push_fixed, push_significant};
