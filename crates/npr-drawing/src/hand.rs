@@ -1,7 +1,7 @@
 //! Strokes as a hand draws them: they sway a little, and are drawn more than once.
 //!
-//! A stroke sways by a smooth function of the way along it and of its line's id, so it holds still from run to run. Sideways
-//! and along: displacements are vectors, not distances along a normal, so corners stay as sharp as they are.
+//! A stroke sways by a smooth function of the way along it and of its line's id, so it holds still from run to run.
+//! Sideways and along: displacements are vectors, not distances along a normal, so corners stay as sharp as they are.
 
 use crate::arc::{Measured, has_course, measure_open};
 use crate::ends::{Meeting, meetings};
