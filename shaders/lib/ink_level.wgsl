@@ -5,7 +5,7 @@
 //# use lib/paint
 //# use lib/tone_word
 
-// Share of ink from which a hatch is tone to the knife.
+// Share of ink from which dots are tone to the knife; of strokes, which taper off, any ink is.
 const LEAST_INK: f32 = 0.015;
 
 // Share of ink from which it is black to the knife.
@@ -83,7 +83,8 @@ fn sharpen(s: f32, gain: f32) -> f32 {
 fn cut_tone_of(part: u32, l: f32) -> u32 {
     let gain = parts[part].hatch_gain;
     if tone_value(sharpen(NEARLY_BLACK, gain), l) < parts[part].threshold { return CUT_BLACK; }
-    return select(CUT_PAPER, CUT_TONE, tone_value(sharpen(LEAST_INK, gain), l) < parts[part].threshold);
+    let least = select(0.0, LEAST_INK, (parts[part].flags & PART_ISOTROPIC) != 0u);
+    return select(CUT_PAPER, CUT_TONE, tone_value(sharpen(least, gain), l) < parts[part].threshold);
 }
 
 // What the knife takes a pixel for that shows triangle `id` of a part.

@@ -22,7 +22,7 @@ pub(crate) const PAPER: u32 = 1;
 /// Ink without a hatch.
 pub(crate) const BLACK: u32 = 2;
 
-/// Share of ink from which a hatch is tone to the knife.
+/// Share of ink from which dots are tone to the knife; of strokes, which taper off, any ink is.
 const LEAST_INK: f32 = 0.015;
 
 /// Share of ink from which it is black to the knife.
@@ -47,9 +47,13 @@ pub fn cut_reach_px(part: &Part) -> f32 {
 /// What the knife takes a hatch of luminance `l` of the shade ramp for.
 fn cut_tone_of(part: &Part, l: f32) -> u32 {
     let is_inked = |s: f32| tone_value(sharpen(s, part.hatch_gain), l) < part.threshold;
+    let least_ink = match part.flags & Part::ISOTROPIC {
+        0 => 0.0,
+        _ => LEAST_INK,
+    };
     if is_inked(NEARLY_BLACK) {
         BLACK
-    } else if is_inked(LEAST_INK) {
+    } else if is_inked(least_ink) {
         TONE
     } else {
         PAPER
@@ -291,7 +295,14 @@ mod tests {
 
     #[test]
     fn dark_hatch_is_black_and_light_hatch_paper() {
-        let tones = [0.3, 0.4, 0.6, 0.7, 0.748, 0.9].map(|l| cut_tone_of(&hatched(8.0), l));
-        assert_eq!(tones, [BLACK, TONE, TONE, TONE, PAPER, PAPER]);
+        let strokes = hatched(8.0);
+        let dots = Part {
+            flags: strokes.flags | Part::ISOTROPIC,
+            ..strokes
+        };
+        let tones_of = |part: Part| [0.3, 0.4, 0.7, 0.748, 0.9].map(|l| cut_tone_of(&part, l));
+        assert_eq!(tones_of(dots), [BLACK, TONE, TONE, PAPER, PAPER]);
+        // Strokes taper off, and end where they have no ink.
+        assert_eq!(tones_of(strokes), [BLACK, TONE, TONE, TONE, PAPER]);
     }
 }
