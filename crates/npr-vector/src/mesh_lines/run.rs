@@ -48,7 +48,7 @@ pub struct Run {
     pub cut: [bool; 2],
     /// Where its line goes on behind something from its first and from its last point.
     pub beyond: [Option<Beyond>; 2],
-    /// Which part of its line it is, once [`tell_parts`](crate::mesh_lines::line_parts::tell_parts) has told.
+    /// Which part of its line it is, where that goes on behind something; told last, when runs are joined and smoothed.
     pub part: Option<LinePart>,
     /// Factor on its width.
     pub weight: f64,
