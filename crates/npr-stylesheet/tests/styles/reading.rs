@@ -210,7 +210,7 @@ fn slips_are_named_with_place_and_cure() {
             "extends = 'inc'",
             "cannot read parent style 'inc': no file 'inc'",
         ),
-        ("extends = 'ink@9'", "preset 'ink' has no version 9, only 8"),
+        ("extends = 'ink@10'", "preset 'ink' has no version 10, only 9"),
     ] {
         assert_eq!(message(text), expected);
     }
