@@ -60,12 +60,16 @@ impl Dash {
         is_cut.then_some((pairs, length))
     }
 
+    /// Whether a pattern that is not stretched lies on a stroke where its texture does.
+    fn lies_by_texture(&self, stroke: &Stroke) -> bool {
+        self.by_texture || stroke.part.is_some()
+    }
+
     /// The dashes of a stroke; `None` if it stays whole.
     fn cut(&self, stroke: &Stroke) -> Option<Vec<Stroke>> {
         let (pairs, period) = self.period()?;
         let line = Measured::new(stroke).filter(|line| line.length() >= period)?;
-        let by_texture = self.by_texture || stroke.part.is_some();
-        let inked = match (self.fit, by_texture) {
+        let inked = match (self.fit, self.lies_by_texture(stroke)) {
             (true, _) => fitted(&pairs, period, &line),
             (false, true) => along_texture(&pairs, period, &line),
             (false, false) => from_start(&pairs, &line),
@@ -90,7 +94,7 @@ impl Dash {
             return own;
         }
         // Stretched patterns are shorter by a third at most, those along a texture by half.
-        let by_texture = self.by_texture || stroke.part.is_some();
+        let by_texture = self.lies_by_texture(stroke);
         let most = if by_texture { SQUEEZED_MOST } else { 1.5 };
         let periods = (most * length / period) as u64 + 2;
         own + periods * 2 * pairs.len() as u64

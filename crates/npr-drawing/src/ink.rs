@@ -119,13 +119,11 @@ fn once_over(stroke: &Stroke, length: f64) -> (f64, f64) {
         [first, .., last] => [first.u, last.u],
         _ => [0.0; 2],
     };
-    let Some(part) = stroke.part else {
-        return (-first / length, 1.0 / length);
-    };
+    let of_part = stroke.part.map(|part| (part.share_at(0.0), part.length_px));
+    let (before, length) = of_part.unwrap_or((0.0, length));
     // A texture that runs against the stroke begins with the end of the image.
     let sign = if last < first { -1.0 } else { 1.0 };
-    let per_px = 1.0 / part.length_px;
-    (sign * part.share_at(0.0) - first * per_px, per_px)
+    (sign * before - first / length, 1.0 / length)
 }
 
 /// Half the width of a stroke at a point, at most [`WIDEST`].

@@ -77,7 +77,7 @@ fn push_stroke(text: &mut String, stroke: &Stroke, surface: &StrokeSurface) -> b
     );
 
     // Write which part of its line it is.
-    if let Some(part) = stroke.part.filter(|part| FilePart::of(part).is_inside()) {
+    if let Some(part) = stroke.part.filter(LinePart::is_sound) {
         let [start, end] = part.ends_px;
         *text += &format!("\"part\":{{\"line\":{},\"from\":", part.line);
         push_fixed(text, start, 3);
@@ -205,21 +205,13 @@ struct FilePart {
     length: f64,
 }
 
-impl FilePart {
-    fn of(part: &LinePart) -> Self {
-        let [from, to] = part.ends_px;
+impl From<FilePart> for LinePart {
+    fn from(part: FilePart) -> Self {
         Self {
             line: part.line,
-            from,
-            to,
-            length: part.length_px,
+            ends_px: [part.from, part.to],
+            length_px: part.length,
         }
-    }
-
-    /// Whether it is inside of its line.
-    fn is_inside(&self) -> bool {
-        let is_on = |px: f64| (0.0..=self.length).contains(&px);
-        self.length.is_finite() && self.length > 0.0 && is_on(self.from) && is_on(self.to)
     }
 }
 
@@ -295,7 +287,10 @@ fn check(stroke: &FileStroke) -> Result<(), &'static str> {
         Err("as many colours as points are needed")
     } else if !finite {
         Err("a number is out of range")
-    } else if stroke.part.is_some_and(|part| !part.is_inside()) {
+    } else if stroke
+        .part
+        .is_some_and(|part| !LinePart::from(part).is_sound())
+    {
         Err("a part lies outside of its line")
     } else if !agrees {
         Err("visibility and occluders disagree")
@@ -346,11 +341,7 @@ fn stroke_of(stroke: FileStroke, names: &mut Names) -> Stroke {
             .unwrap_or(u32::from(stroke.visibility == Visibility::Hidden)),
         surface: names.surface(stroke.object, stroke.material),
         closed: stroke.closed,
-        part: stroke.part.map(|part| LinePart {
-            line: part.line,
-            ends_px: [part.from, part.to],
-            length_px: part.length,
-        }),
+        part: stroke.part.map(LinePart::from),
         points: points
             .map(|(i, ([x, y, depth, width, u], world))| StrokePoint {
                 position: [*x, *y],

@@ -152,12 +152,10 @@ impl StyledModel {
 
         // Cut out the hatch of others.
         for part in &mut parts[..surfaces] {
-            match part.tone_reach_px == 0.0 {
-                true if part.flags & Part::CUT != 0 => {
-                    part.tone_reach_px = cut_reach_px(part);
-                }
-                true => {}
-                false => part.flags &= !Part::CUT,
+            if part.tone_reach_px != 0.0 {
+                part.flags &= !Part::CUT;
+            } else if part.flags & Part::CUT != 0 {
+                part.tone_reach_px = cut_reach_px(part);
             }
         }
         Ok(Self {

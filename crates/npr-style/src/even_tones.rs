@@ -175,7 +175,7 @@ pub fn even_tones(map: &ToneMap<'_>, flags: &[u32], evened: &mut [u32]) {
 }
 
 /// The part in a word of the evened map.
-pub(crate) fn tag_of(part: u32) -> u32 {
+fn tag_of(part: u32) -> u32 {
     (part + 1) << (STEP_BITS + 1)
 }
 

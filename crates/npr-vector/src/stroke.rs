@@ -58,6 +58,12 @@ pub struct LinePart {
 }
 
 impl LinePart {
+    /// Whether it lies on its line, and all of it is finite.
+    pub fn is_sound(&self) -> bool {
+        let is_on = |px: f64| (0.0..=self.length_px).contains(&px);
+        self.length_px.is_finite() && self.length_px > 0.0 && self.ends_px.map(is_on) == [true; 2]
+    }
+
     /// The same of the stroke travelled the other way.
     pub(crate) fn reversed(self) -> Self {
         let [start, end] = self.ends_px;

@@ -210,7 +210,10 @@ fn slips_are_named_with_place_and_cure() {
             "extends = 'inc'",
             "cannot read parent style 'inc': no file 'inc'",
         ),
-        ("extends = 'ink@10'", "preset 'ink' has no version 10, only 9"),
+        (
+            "extends = 'ink@10'",
+            "preset 'ink' has no version 10, only 9",
+        ),
     ] {
         assert_eq!(message(text), expected);
     }

@@ -16,10 +16,8 @@ const OWN_BITS: u32 = 45;
 pub(super) struct Claimant {
     /// Its own one.
     pub own: u64,
-    /// How many samples it had of each of the frame before.
+    /// How many of its samples were of each in the frame before.
     pub counts: BTreeMap<u64, usize>,
-    /// How many samples found one of the frame before.
-    pub vote_count: usize,
 }
 
 /// Gives strokes the identities of the lines that they were: that with most samples on each line takes its identity,
@@ -35,7 +33,6 @@ pub(super) fn settle_ids(strokes: &mut [Stroke], tallies: &[Tally], lines: &[Lin
             Some(_) => lines[line].id,
             None => lines[line].whole_id,
         }),
-        vote_count: tally.vote_count,
     });
     let ids = settled(&claimants.collect::<Vec<_>>());
     for (stroke, id) in strokes.iter_mut().zip(ids) {
@@ -48,7 +45,7 @@ pub(super) fn settled(claimants: &[Claimant]) -> Vec<u64> {
     // Let each ask for those that it has much of.
     let mut claims: Vec<(Reverse<usize>, u64, u64, usize)> = Vec::new();
     for (index, claimant) in claimants.iter().enumerate() {
-        let least = LEAST_SHARE * claimant.vote_count as f64;
+        let least = LEAST_SHARE * claimant.counts.values().sum::<usize>() as f64;
         let large = claimant
             .counts
             .iter()

@@ -34,11 +34,7 @@ pub(super) fn settle(strokes: &mut [Stroke], tallies: &[Tally], lines: &[Line]) 
                 *counts.entry(id).or_default() += count;
             }
         }
-        Claimant {
-            own: *own,
-            vote_count: counts.values().sum(),
-            counts,
-        }
+        Claimant { own: *own, counts }
     });
     let ids = settled(&claimants.collect::<Vec<_>>());
     for (of_line, line) in members.values().zip(ids) {
@@ -92,8 +88,8 @@ fn carry_textures(strokes: &mut [Stroke], tallies: &[Tally], members: &[usize]) 
             true => start - facing.at_px,
             false => facing.at_px - end,
         };
-        let before = known.iter().filter(|facing| away(facing) >= 0.0);
-        let nearest = before.min_by(|a, b| {
+        let facing_it = known.iter().filter(|facing| away(facing) >= 0.0);
+        let nearest = facing_it.min_by(|a, b| {
             let by_way = away(a).total_cmp(&away(b));
             by_way.then(b.is_late.cmp(&a.is_late))
         });

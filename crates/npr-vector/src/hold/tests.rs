@@ -603,7 +603,7 @@ proptest! {
     #[test]
     fn what_is_parted_for_a_while_stays_one_line(
         gap in [70.0..300.0_f64, 20.0..200.0],
-        is_back in prop::array::uniform3(any::<bool>()),
+        is_back in prop::array::uniform2(any::<bool>()),
         from_u in -300.0..300.0_f64,
         frames in 1_usize..9,
     ) {

@@ -242,16 +242,11 @@ fn parts(run: &Run, cuts: &[usize]) -> Vec<Run> {
         let own = points[1..].iter().map(|point| point.edge);
         let edge = own.min_by_key(|edge| hash_key(*edge)).unwrap_or(0);
         let is_last = index + 2 == stops.len();
+        let is_end_of_run = [index == 0, is_last].map(|is_end| is_end && !run.closed);
         Run {
             id: base_id(edge, run.kind) << 8,
-            cut: [
-                run.closed || index > 0 || run.cut[0],
-                run.closed || !is_last || run.cut[1],
-            ],
-            beyond: [
-                run.beyond[0].filter(|_| index == 0 && !run.closed),
-                run.beyond[1].filter(|_| is_last && !run.closed),
-            ],
+            cut: [0, 1].map(|end| !is_end_of_run[end] || run.cut[end]),
+            beyond: [0, 1].map(|end| run.beyond[end].filter(|_| is_end_of_run[end])),
             closed: false,
             points,
             ..run.clone_empty()

@@ -319,17 +319,12 @@ fn parts(run: &Run, doubled: &[bool]) -> Vec<Run> {
         if to - from >= LEAST_SAMPLES {
             let (first, last) = (from.saturating_sub(OVERLAP), (to + OVERLAP).min(count));
             let points = (first..last).map(|k| run.points[at(k)]).collect();
+            let is_end_of_run = [first == 0, last == count].map(|is_end| is_end && !run.closed);
             parts.push(Run {
                 points,
                 closed: false,
-                cut: [
-                    run.cut[0] && first == 0 && !run.closed,
-                    run.cut[1] && last == count && !run.closed,
-                ],
-                beyond: [
-                    run.beyond[0].filter(|_| first == 0 && !run.closed),
-                    run.beyond[1].filter(|_| last == count && !run.closed),
-                ],
+                cut: [0, 1].map(|end| run.cut[end] && is_end_of_run[end]),
+                beyond: [0, 1].map(|end| run.beyond[end].filter(|_| is_end_of_run[end])),
                 ..run.clone_empty()
             });
         }

@@ -22,10 +22,10 @@ pub fn tell_parts(runs: &mut [Run]) {
     let mates = without_rings(runs.len(), ways);
     let is_start = |end: usize| mates[end].is_none() && mates[end ^ 1].is_some();
     let starts: Vec<usize> = (0..mates.len()).filter(|end| is_start(*end)).collect();
-    let mut told = vec![false; runs.len()];
     for start in starts {
-        if !told[start / 2] {
-            tell_line(runs, &members(start, &mates), &mut told);
+        // The last end of a line is a start of it, too.
+        if runs[start / 2].part.is_none() {
+            tell_line(runs, &members(start, &mates));
         }
     }
 }
@@ -103,7 +103,7 @@ fn members(start: usize, mates: &[Option<(usize, f64)>]) -> Vec<(usize, f64)> {
 }
 
 /// Gives the members of a line their parts of it.
-fn tell_line(runs: &mut [Run], members: &[(usize, f64)], told: &mut [bool]) {
+fn tell_line(runs: &mut [Run], members: &[(usize, f64)]) {
     // Measure the line as the pen came along it.
     let mut way = 0.0;
     let mut parts: Vec<(usize, [f64; 2])> = Vec::new();
@@ -134,7 +134,6 @@ fn tell_line(runs: &mut [Run], members: &[(usize, f64)], told: &mut [bool]) {
             true => part.of_reversed_line().reversed(),
             false => part,
         });
-        told[end / 2] = true;
     }
 }
 
