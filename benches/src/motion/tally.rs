@@ -29,6 +29,9 @@ pub const MATCH_PX: f64 = 3.0;
 /// Least cosine between the directions of both, whichever way they run.
 const MATCH_COS: f64 = 0.7;
 
+/// Least length of a raw line whose ends count, in pixels: shreds come and go all the time, and are not drawn.
+const RAW_LEAST_PX: f64 = 16.0;
+
 /// How much farther than the nearest sample one of the same stroke may lie and be taken for it, in pixels: where
 /// strokes meet, two lie at one place.
 const TIE_PX: f64 = 0.01;
@@ -90,8 +93,6 @@ impl Pair {
             }
         };
         let carried: Vec<Carried> = before.samples.iter().map(carry).collect();
-        let ends = before.ends.iter().enumerate();
-        let ends = ends.map(|(number, end)| (number, step.moved(end.place, end.world).0));
 
         // Find what is drawn of it.
         let places = carried.iter().map(|carried| carried.sample.place).collect();
@@ -101,15 +102,25 @@ impl Pair {
             *is_inside && !after.near.is_near(sample.place, GONE_PX)
         });
         Self {
-            ends: ends
-                .filter(|(_, place)| is_inside(*place, after.size))
-                .collect(),
+            ends: carried_ends(before, after.size, step).collect(),
             matches: matches((before, &carried, &near), after),
             gone: gone.collect(),
             near,
             carried,
         }
     }
+}
+
+/// The ends of a frame's strokes where they are carried to, with their numbers; those that leave the picture are left
+/// out.
+fn carried_ends<'a>(
+    before: &'a Traced,
+    size: [u32; 2],
+    step: &'a Step<'_>,
+) -> impl Iterator<Item = (usize, [f64; 2])> + 'a {
+    let ends = before.ends.iter().enumerate();
+    let ends = ends.map(|(number, end)| (number, step.moved(end.place, end.world).0));
+    ends.filter(move |(_, place)| is_inside(*place, size))
 }
 
 /// For every drawn sample the nearest carried one that runs the same way or the opposite one.
@@ -213,6 +224,8 @@ pub struct Tally {
     pub drifts: Vec<f64>,
     /// Ends of the next frame, and those of them near which none is carried.
     pub born: [usize; 2],
+    /// Ends of raw lines of 16 pixels or more, and those of them near which the next frame has none.
+    pub raw_ends: [usize; 2],
     /// Slide of every match, in pixels.
     pub slides: Vec<f64>,
     /// Matches that would pop although strokes took over their textures as a whole.
@@ -308,6 +321,17 @@ impl Tally {
         }
     }
 
+    /// Adds the ends of raw lines, before anything is joined or left out: what the surface and what hides it lose.
+    pub fn add_raw_ends(&mut self, before: &Traced, after: &Traced, step: &Step<'_>) {
+        let there: Vec<[f64; 2]> = after.ends.iter().map(|end| end.place).collect();
+        for (number, place) in carried_ends(before, after.size, step) {
+            if before.strokes[before.ends[number].stroke].length >= RAW_LEAST_PX {
+                self.raw_ends[0] += 1;
+                self.raw_ends[1] += usize::from(least_distance(place, &there) > JUMP_PX);
+            }
+        }
+    }
+
     /// Adds what is gone in the middle one of three frames alone; `second` carries the samples of the first pair on.
     pub fn add_blinks(&mut self, first: &Pair, second: &Step<'_>, last: &Traced) {
         self.blinks[0] += first.carried.len();
@@ -348,6 +372,11 @@ impl Tally {
     pub fn lost(&self) -> f64 {
         let lost = self.drifts.iter().filter(|away| **away > JUMP_PX);
         share(lost.count(), self.drifts.len())
+    }
+
+    /// The same of ends of raw lines.
+    pub fn raw_lost(&self) -> f64 {
+        share(self.raw_ends[1], self.raw_ends[0])
     }
 
     /// Share of ends of the next frame that had none within 8 pixels.
@@ -477,6 +506,7 @@ mod tests {
         };
         let mut tally = Tally::default();
         tally.add((&before, &after), &pair, &due);
+        tally.add_raw_ends(&before, &after, step);
         tally
     }
 
@@ -532,7 +562,8 @@ mod tests {
             let without = &frame[1..];
             let tally = tally_of(&frame, without, &still());
             let of_all = 1.0 / count as f64;
-            prop_assert_eq!([tally.lost(), tally.flicker(), tally.gone_point_share()], [of_all; 3]);
+            prop_assert_eq!([tally.lost(), tally.raw_lost()], [of_all; 2]);
+            prop_assert_eq!([tally.flicker(), tally.gone_point_share()], [of_all; 2]);
             prop_assert_eq!([tally.born_share(), tally.pop(), tally.slide()], [0.0; 3]);
             prop_assert_eq!(tally_of(without, &frame, &still()).born_share(), of_all);
         }

@@ -262,7 +262,7 @@ pub struct Part {
     /// Colours of single kinds of its lines, sRGB bytes, in the order of [`Kind::ALL`](crate::line_kind::Kind::ALL).
     /// A colour counts where `line_flags` has the bit of its kind.
     pub line_kinds: [u32; COLORED_KINDS],
-    /// How deep the grain of the paper is for its hatching, as a share of full pressure.
+    /// How much the grain of the paper shows in its hatching, 0..2.
     pub hatch_grain: f32,
     /// Hills of the paper per pixel.
     pub spots_per_px: f32,

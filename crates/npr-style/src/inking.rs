@@ -82,16 +82,20 @@ fn spared_level(l: f32, spared: f32) -> f32 {
     l + spared
 }
 
-/// Pressure, as a share of the full one, over which the ink of a hatch grows from none to all.
-const SOFT: f32 = 0.4;
+/// Height of the paper below which it takes less ink of a hatch, on paper of grain 1.
+const LEVEL: f32 = 0.3;
 
-/// What the grain of the paper leaves of the ink of a hatch at a place of the picture, in pixels: its hills take all.
+/// Height over which its ink goes from all to none below that.
+const SOFT: f32 = 0.25;
+
+/// What the grain of the paper leaves of the ink of a hatch at a place of the picture, in pixels: all of it on hills,
+/// less where the paper is lower than a level that rises with the grain.
 pub(crate) fn on_paper(part: &Part, ink: f32, px: [f32; 2]) -> f32 {
     if ink <= 0.0 || part.hatch_grain <= 0.0 {
         return ink;
     }
-    let valley = 1.0 - paper_height(px, part.spots_per_px);
-    ink * ((1.0 - part.hatch_grain * valley) / SOFT + 0.5).clamp(0.0, 1.0)
+    let above = paper_height(px, part.spots_per_px) - part.hatch_grain * LEVEL;
+    ink * (1.0 + above / SOFT).clamp(0.0, 1.0)
 }
 
 /// Ink of a hatched surface at luminance `l` of the shade ramp, if no stroke is thin or wide enough to matter: 1 or 0;

@@ -53,7 +53,7 @@ const PRESETS: &[Preset] = presets![
     "simple-comic" 6 "../presets/simple-comic.toml",
     "crosshatch" 5 "../presets/crosshatch.toml",
     "stipple" 5 "../presets/stipple.toml",
-    "pencil" 6 "../presets/pencil.toml",
+    "pencil" 7 "../presets/pencil.toml",
     "screentone" 5 "../presets/screentone.toml",
     "inked" 4 "../presets/inked.toml",
     "manga" 5 "../presets/manga.toml",
@@ -75,7 +75,7 @@ const PRESETS: &[Preset] = presets![
     "mtoon" 1 "../presets/mtoon.toml",
     "smoke-cel-2" 4 "../presets/smoke-cel-2.toml",
     "smoke-cel-3" 4 "../presets/smoke-cel-3.toml",
-    "smoke-ink" 5 "../presets/smoke-ink.toml",
+    "smoke-ink" 6 "../presets/smoke-ink.toml",
     "smoke-comic" 5 "../presets/smoke-comic.toml",
     "cloud" 4 "../presets/cloud.toml",
     "explosion" 4 "../presets/explosion.toml",
@@ -175,6 +175,7 @@ const OLDER: &[Preset] = presets![
     "pencil" 3 "../presets/older/pencil-3.toml",
     "pencil" 4 "../presets/older/pencil-4.toml",
     "pencil" 5 "../presets/older/pencil-5.toml",
+    "pencil" 6 "../presets/older/pencil-6.toml",
     "pencil-outline" 1 "../presets/older/pencil-outline-1.toml",
     "pencil-outline" 2 "../presets/older/pencil-outline-2.toml",
     "pencil-outline" 3 "../presets/older/pencil-outline-3.toml",
@@ -205,6 +206,7 @@ const OLDER: &[Preset] = presets![
     "smoke-ink" 2 "../presets/older/smoke-ink-2.toml",
     "smoke-ink" 3 "../presets/older/smoke-ink-3.toml",
     "smoke-ink" 4 "../presets/older/smoke-ink-4.toml",
+    "smoke-ink" 5 "../presets/older/smoke-ink-5.toml",
     "stipple" 1 "../presets/older/stipple-1.toml",
     "stipple" 2 "../presets/older/stipple-2.toml",
     "stipple" 3 "../presets/older/stipple-3.toml",
@@ -406,7 +408,7 @@ mod tests {
     }
 
     /// The first version of presets with calm tones and rounded edges, where a newer one came after it.
-    const FIRST_CALM: [(&str, u32); 19] = [
+    const FIRST_CALM: [(&str, u32); 20] = [
         ("blueprint", 3),
         ("brush", 4),
         ("chalkboard", 4),
@@ -424,6 +426,7 @@ mod tests {
         ("simple-comic", 5),
         ("sketch", 3),
         ("smoke-comic", 4),
+        ("smoke-ink", 5),
         ("stipple", 4),
         ("technical", 5),
     ];
@@ -459,6 +462,9 @@ mod tests {
         assert!(toon.shade.calm > 0.0 && toon.line.crease_round > 0.0);
     }
 
+    /// The first version of presets whose hatching follows limbs and spares faces, where a newer one came after it.
+    const FIRST_ON_LIMBS: [(&str, u32); 1] = [("pencil", 6)];
+
     #[test]
     fn versions_from_before_limbs_and_faces_hatch_as_they_did() {
         let hatch = |name: &str| {
@@ -469,8 +475,12 @@ mod tests {
         };
         for older in OLDER {
             let name = format!("{}@{}", older.name, older.version);
+            let mut firsts = FIRST_ON_LIMBS.iter();
+            let is_on_limbs =
+                firsts.any(|(name, first)| *name == older.name && *first <= older.version);
+            let expected = (is_on_limbs, is_on_limbs);
             assert!(
-                matches!(hatch(&name), None | Some((false, false))),
+                matches!(hatch(&name), None | Some(found) if found == expected),
                 "{name}"
             );
         }
@@ -491,6 +501,25 @@ mod tests {
         for (name, version) in LAST_WITHOUT_EYES {
             assert!(inks_faces(name), "{name}");
             assert!(!inks_faces(&format!("{name}@{version}")), "{name}");
+        }
+    }
+
+    /// A preset that extends another without a version would change with it, and keep its own version.
+    #[test]
+    fn presets_extend_the_newest_versions_by_their_numbers() {
+        for preset in PRESETS.iter().chain(OLDER) {
+            let table: toml::Table = preset.text.parse().expect("a table");
+            let Some(parent) = table.get("extends").and_then(toml::Value::as_str) else {
+                continue;
+            };
+            let (name, version) = parent.split_once('@').expect("a version");
+            let is_newest = PRESETS.contains(preset);
+            let newest = find(name).expect("a preset").version.to_string();
+            assert!(
+                !is_newest || version == newest,
+                "{} extends {parent}: raise its version, too",
+                preset.name
+            );
         }
     }
 

@@ -412,12 +412,13 @@ fn hatching_shows_the_grain_of_the_paper() {
         let ink = inside.map(|(x, y)| 1.0 - f32::from(pixel(frame, x, y)[0]) / 255.0);
         ink.sum::<f32>() / (200.0 * 160.0)
     };
-    let [smooth, some, rough] = ["0", "1.2", "1.8"].map(|grain| drawn(grain, "4px"));
+    let [smooth, little, some, rough] = ["0", "0.5", "1.2", "1.8"].map(|grain| drawn(grain, "4px"));
     assert!(
         dark(&smooth) > 0.97,
         "all of the wall is ink: {}",
         dark(&smooth)
     );
+    assert!(dark(&little) < dark(&smooth) - 0.01 && dark(&some) < dark(&little) - 0.03);
     assert!(dark(&some) < 0.97 && dark(&rough) < dark(&some) - 0.03);
     // Where paper is high there is ink, where it is low there is none.
     for (x, y) in (60..260).flat_map(|x| (40..200).map(move |y| (x, y))) {

@@ -88,6 +88,7 @@ pub fn measured(
             is_seen: &is_seen,
         };
         tally.add((&last.stages.drawn, &next.stages.drawn), &pair, &due);
+        tally.add_raw_ends(&last.stages.raw, &next.stages.raw, &step);
         tally.add_bias(&next.stages.drawn, &next.stages.raw);
         if let Some(earlier) = &earlier {
             tally.add_blinks(earlier, &step, &next.stages.drawn);
