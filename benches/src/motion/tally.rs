@@ -224,8 +224,8 @@ pub struct Tally {
     pub drifts: Vec<f64>,
     /// Ends of the next frame, and those of them near which none is carried.
     pub born: [usize; 2],
-    /// Ends of raw lines of 16 pixels or more, and those of them near which the next frame has none.
-    pub raw_ends: [usize; 2],
+    /// How far every end of raw lines of 16 pixels or more lies from the nearest of the next frame, in pixels.
+    pub raw_drifts: Vec<f64>,
     /// Slide of every match, in pixels.
     pub slides: Vec<f64>,
     /// Matches that would pop although strokes took over their textures as a whole.
@@ -326,8 +326,7 @@ impl Tally {
         let there: Vec<[f64; 2]> = after.ends.iter().map(|end| end.place).collect();
         for (number, place) in carried_ends(before, after.size, step) {
             if before.strokes[before.ends[number].stroke].length >= RAW_LEAST_PX {
-                self.raw_ends[0] += 1;
-                self.raw_ends[1] += usize::from(least_distance(place, &there) > JUMP_PX);
+                self.raw_drifts.push(least_distance(place, &there));
             }
         }
     }
@@ -365,18 +364,22 @@ impl Tally {
 
     /// Median of how far ends drift, at most 40 pixels each.
     pub fn drift(&self) -> f64 {
-        median(self.drifts.iter().map(|away| away.min(DRIFT_MOST_PX)))
+        drift_of(&self.drifts)
+    }
+
+    /// The same of ends of raw lines.
+    pub fn raw_drift(&self) -> f64 {
+        drift_of(&self.raw_drifts)
     }
 
     /// Share of ends that have none within 8 pixels.
     pub fn lost(&self) -> f64 {
-        let lost = self.drifts.iter().filter(|away| **away > JUMP_PX);
-        share(lost.count(), self.drifts.len())
+        lost_of(&self.drifts)
     }
 
     /// The same of ends of raw lines.
     pub fn raw_lost(&self) -> f64 {
-        share(self.raw_ends[1], self.raw_ends[0])
+        lost_of(&self.raw_drifts)
     }
 
     /// Share of ends of the next frame that had none within 8 pixels.
@@ -471,6 +474,15 @@ pub fn share(part: usize, whole: usize) -> f64 {
 }
 
 /// The middle one of some values, the upper one of two; 0 of none.
+fn drift_of(drifts: &[f64]) -> f64 {
+    median(drifts.iter().map(|away| away.min(DRIFT_MOST_PX)))
+}
+
+fn lost_of(drifts: &[f64]) -> f64 {
+    let lost = drifts.iter().filter(|away| **away > JUMP_PX);
+    share(lost.count(), drifts.len())
+}
+
 fn median(values: impl Iterator<Item = f64>) -> f64 {
     let mut values: Vec<f64> = values.collect();
     let middle = values.len() / 2;

@@ -95,7 +95,7 @@ pub fn heading() {
         "A frame's strokes, sampled a pixel apart, are carried to the next frame by the surface, and compared with \
          what is drawn there:\n\n\
          - **drift**: how far an end lies from the nearest end, median, at most 40 px each; **lost**: ends with none \
-         within 8 px; **raw lost**: the same of raw lines of 16 px or more, before anything is joined or left out: \
+         within 8 px; **raw**: the same of raw lines of 16 px or more, before anything is joined or left out: \
          what surfaces and what hides them lose by themselves; **born**: ends of the next frame that come from none\n\
          - **slide**: how far the texture coordinate of a sample moves, median, to half a pixel, as samples are a \
          pixel apart; **pop**: samples where it moves by more than 8 px; **voted**: the same if every stroke took over \
@@ -122,7 +122,8 @@ pub fn sequences(rows: &[Measured]) {
             "strokes",
             "drift, px",
             "lost, %",
-            "raw lost, %",
+            "raw: drift, px",
+            "lost, %",
             "born, %",
             "slide, px",
             "pop, %",
@@ -142,6 +143,7 @@ pub fn sequences(rows: &[Measured]) {
                 format!("{mean:.1}±{deviation:.1}"),
                 format!("{:.2}", tally.drift()),
                 percent(tally.lost()),
+                format!("{:.2}", tally.raw_drift()),
                 percent(tally.raw_lost()),
                 percent(tally.born_share()),
                 format!("{:.2}", tally.slide()),

@@ -5,13 +5,11 @@ use npr_drawing::stubs::remove_stubs;
 use npr_vector::hold::HeldStrokes;
 use npr_vector::mesh_lines::HeldJoints;
 use npr_vector::stroke::Stroke;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-/// Share of the least length below which a line goes that was drawn in the frame before.
-const GOES_SHARE: f64 = 0.75;
-
-/// Share of the least length from which a line comes that was not drawn in the frame before.
-const COMES_SHARE: f64 = 1.15;
+/// Share of the least length below which a line goes that was drawn in the frame before: it shrinks to about a dash of
+/// 10 pixels first, where the least length is 24.
+const GOES_SHARE: f64 = 0.4;
 
 /// The strokes of the frame drawn last, for [`LineModel::draw_held`](super::LineModel::draw_held); of every way to find
 /// lines its own, as a frame may have several.
@@ -46,13 +44,13 @@ impl HeldLines {
 /// Which strokes of the frame before were drawn, and no stubs.
 #[derive(Debug, Clone, Default)]
 pub(super) struct DrawnBefore {
-    /// Their ids, and whether all of each was drawn; none before the first frame.
-    ids: Option<BTreeMap<u64, bool>>,
+    /// Ids of those that were drawn whole. Where a stub was cut off, it is one still.
+    whole: BTreeSet<u64>,
 }
 
 impl DrawnBefore {
-    /// Removes stubs as [`remove_stubs`] does, later than they come: what is about as long as the least length does not
-    /// come and go all the time.
+    /// Removes stubs as [`remove_stubs`] does, but lets lines that were drawn shrink before they go: what is about as
+    /// long as the least length does not come and go all the time.
     pub fn remove_stubs(
         &mut self,
         strokes: &mut Vec<Stroke>,
@@ -65,21 +63,16 @@ impl DrawnBefore {
         };
         let found = lengths(strokes);
         remove_stubs(strokes, size, |stroke| {
-            least_px(stroke) * self.factor(stroke)
+            let share = if self.whole.contains(&stroke.id) {
+                GOES_SHARE
+            } else {
+                1.0
+            };
+            least_px(stroke) * share
         });
         let drawn = lengths(strokes).into_iter();
-        let drawn = drawn.map(|(id, length)| (id, found.get(&id) == Some(&length)));
-        self.ids = Some(drawn.collect());
-    }
-
-    /// The factor on the least length of a stroke.
-    fn factor(&self, stroke: &Stroke) -> f64 {
-        match self.ids.as_ref().map(|ids| ids.get(&stroke.id)) {
-            Some(Some(true)) => GOES_SHARE,
-            Some(None) => COMES_SHARE,
-            // A stub was cut off it, and is one still.
-            Some(Some(false)) | None => 1.0,
-        }
+        let whole = drawn.filter(|(id, length)| found.get(id) == Some(length));
+        self.whole = whole.map(|(id, _)| id).collect();
     }
 }
 
@@ -122,9 +115,13 @@ mod tests {
 
     #[test]
     fn what_is_about_as_long_as_a_stub_stays_as_it_is() {
-        let lengths = [21.0, 19.0, 22.0, 16.0, 14.0, 16.0, 22.0, 24.0, 18.0];
-        let alone = [true, false, true, false, false, false, true, true, false];
-        let held = [true, true, true, true, false, false, false, true, true];
+        let lengths = [21.0, 19.0, 22.0, 16.0, 9.0, 7.0, 9.0, 19.0, 22.0, 18.0];
+        let alone = [
+            true, false, true, false, false, false, false, false, true, false,
+        ];
+        let held = [
+            true, true, true, true, true, false, false, false, true, true,
+        ];
         assert_eq!(drawn(&lengths, None), alone);
         assert_eq!(drawn(&lengths, Some(DrawnBefore::default())), held);
     }
