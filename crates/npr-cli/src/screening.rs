@@ -273,9 +273,14 @@ mod tests {
     }
 
     impl Session for DyingSession {
-        fn write(&mut self, id: ResourceId, words: &[u32]) -> Result<(), EngineError> {
+        fn write_at(
+            &mut self,
+            id: ResourceId,
+            first: usize,
+            words: &[u32],
+        ) -> Result<(), EngineError> {
             self.check()?;
-            self.0.write(id, words)
+            self.0.write_at(id, first, words)
         }
 
         fn grow(&mut self, id: ResourceId, count: usize) -> Result<(), EngineError> {

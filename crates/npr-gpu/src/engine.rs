@@ -81,12 +81,26 @@ pub trait Engine {
 
 /// A graph with its memory.
 pub trait Session {
-    /// Fills a resource from the start with words; later words keep their values. Runs in flight do not see them.
+    /// Fills a resource from its word `first` on with words; all others keep their values. Runs in flight do not see
+    /// them. An image takes words from its start alone.
     ///
     /// # Errors
     ///
     /// [`EngineError`] where the device is lost.
-    fn write(&mut self, id: ResourceId, words: &[u32]) -> Result<(), EngineError>;
+    ///
+    /// # Panics
+    ///
+    /// Where the resource has no room for them, or is an image and `first` is not 0.
+    fn write_at(&mut self, id: ResourceId, first: usize, words: &[u32]) -> Result<(), EngineError>;
+
+    /// The same from the start.
+    ///
+    /// # Errors
+    ///
+    /// As [`Session::write_at`].
+    fn write(&mut self, id: ResourceId, words: &[u32]) -> Result<(), EngineError> {
+        self.write_at(id, 0, words)
+    }
 
     /// The same with words that others keep too: an engine that has its resources in the memory of the processor may
     /// read them where they are.
@@ -210,8 +224,8 @@ pub trait Session {
 
 /// A session of any engine is a session.
 impl Session for Box<dyn Session> {
-    fn write(&mut self, id: ResourceId, words: &[u32]) -> Result<(), EngineError> {
-        self.as_mut().write(id, words)
+    fn write_at(&mut self, id: ResourceId, first: usize, words: &[u32]) -> Result<(), EngineError> {
+        self.as_mut().write_at(id, first, words)
     }
 
     fn write_shared(&mut self, id: ResourceId, words: &Arc<Vec<u32>>) -> Result<(), EngineError> {

@@ -23,6 +23,7 @@
 //! # Ok::<(), npr_gpu::engine::EngineError>(())
 //! ```
 
+pub mod changes;
 pub mod cost;
 pub mod curves;
 #[cfg(feature = "wgpu")]

@@ -65,8 +65,10 @@ impl ProcessorSession {
 }
 
 impl Session for ProcessorSession {
-    fn write(&mut self, id: ResourceId, words: &[u32]) -> Result<(), EngineError> {
-        Arc::make_mut(&mut self.memory[id.index()])[..words.len()].copy_from_slice(words);
+    fn write_at(&mut self, id: ResourceId, first: usize, words: &[u32]) -> Result<(), EngineError> {
+        self.graph.assert_takes(id, first, words.len());
+        let memory = Arc::make_mut(&mut self.memory[id.index()]);
+        memory[first..][..words.len()].copy_from_slice(words);
         Ok(())
     }
 

@@ -509,8 +509,8 @@ impl<S: Session> FrameRenderer<S> {
         let session = &mut self.session;
         write(session, passes.frame.palette, &model.palette)?;
         if moved.vertices {
-            needs.styled.follow(model);
-            write(session, passes.frame.vertices, &needs.styled.vertices)?;
+            let changes = needs.styled.follow(model);
+            changes.write(session, passes.frame.vertices, &needs.styled.vertices)?;
         }
         if moved.edges {
             let edges = model.edges_by(look::creases(style).from);

@@ -23,6 +23,7 @@ use npr_core::math;
 use npr_core::outline::{Outline, width_of_curvature};
 use npr_core::texture::{self, TextureStore, Wrap};
 use npr_core::window::View;
+use npr_gpu::changes::Changes;
 use npr_mesh::curvature::tightest;
 use npr_style::compose::Compose;
 use npr_style::cut_tone::cut_reach_px;
@@ -172,18 +173,25 @@ impl StyledModel {
         })
     }
 
-    /// Takes over where the vertices of a model are, and their normals; widths, colours and charts stay.
-    pub fn follow(&mut self, model: &Model) {
+    /// Takes over where the vertices of a model are, and their normals; widths, colours and charts stay. Returns which
+    /// vertices that changed.
+    pub fn follow(&mut self, model: &Model) -> Changes {
+        let mut changes = Changes::default();
         for (i, (vertex, moved)) in self.vertices.iter_mut().zip(&model.vertices).enumerate() {
             let calming = self.calming.get(i).copied().unwrap_or_default();
-            *vertex = Vertex {
+            let followed = Vertex {
                 normal: calmed(moved.normal, calming),
                 width: vertex.width,
                 color: vertex.color,
                 pen: vertex.pen,
                 ..*moved
             };
+            if bytemuck::bytes_of(&followed) != bytemuck::bytes_of(vertex) {
+                changes.add(i);
+                *vertex = followed;
+            }
         }
+        changes
     }
 }
 
@@ -547,4 +555,42 @@ pub(crate) fn nearest_world_px(view: &View, camera: &Camera, model: &Model) -> f
     let center = (Vec3::from(min) + Vec3::from(max)) * 0.5;
     let distance = (center - Vec3::from(camera.eye)).dot(Vec3::from(view.forward_world));
     1.0 / view.pixel_before_eye(distance - model.radius())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use npr_scene::testing::limb;
+
+    /// Of a scene in which a morph moves the middle of a limb, the ends of the limb and the flag beside it stay.
+    #[test]
+    fn a_pose_changes_the_vertices_that_morphs_move_alone() {
+        let rest = limb(true);
+        let mut model = Model::new(&rest).expect("a model");
+        let options = RendererOptions::new([64, 64]);
+        let styled = StyledModel::new(&model, &Style::default(), &options, &[]);
+        let mut styled = styled.expect("a style");
+        let before = styled.vertices.clone();
+
+        let mut scene = rest.clone();
+        let pose = rest.pose_at(&rest.clips[1], 1.0);
+        scene.set_pose(&pose).expect("in range");
+        assert!(model.pose(&scene).expect("the same scene").vertices);
+        let changes = styled.follow(&model);
+        let is_changed = |i: usize| before[i].position != styled.vertices[i].position;
+        let all = 0..before.len();
+        let handed: Vec<usize> = changes.ranges().iter().cloned().flatten().collect();
+        assert!(
+            all.clone()
+                .filter(|i| is_changed(*i))
+                .all(|i| handed.contains(&i))
+        );
+        assert!(
+            !handed.is_empty() && handed.len() < before.len() - 4,
+            "{handed:?}"
+        );
+
+        // Once more there is nothing to hand over.
+        assert!(styled.follow(&model).ranges().is_empty());
+    }
 }

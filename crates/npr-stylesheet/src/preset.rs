@@ -63,7 +63,7 @@ const PRESETS: &[Preset] = presets![
     "sketch" 4 "../presets/sketch.toml",
     "pencil-outline" 4 "../presets/pencil-outline.toml",
     "charcoal" 4 "../presets/charcoal.toml",
-    "chalkboard" 5 "../presets/chalkboard.toml",
+    "chalkboard" 6 "../presets/chalkboard.toml",
     "blueprint" 4 "../presets/blueprint.toml",
     "cel-2" 4 "../presets/cel-2.toml",
     "cel-3" 4 "../presets/cel-3.toml",
@@ -108,6 +108,7 @@ const OLDER: &[Preset] = presets![
     "chalkboard" 2 "../presets/older/chalkboard-2.toml",
     "chalkboard" 3 "../presets/older/chalkboard-3.toml",
     "chalkboard" 4 "../presets/older/chalkboard-4.toml",
+    "chalkboard" 5 "../presets/older/chalkboard-5.toml",
     "charcoal" 1 "../presets/older/charcoal-1.toml",
     "charcoal" 2 "../presets/older/charcoal-2.toml",
     "charcoal" 3 "../presets/older/charcoal-3.toml",
@@ -479,10 +480,7 @@ mod tests {
             let is_on_limbs =
                 firsts.any(|(name, first)| *name == older.name && *first <= older.version);
             let expected = (is_on_limbs, is_on_limbs);
-            assert!(
-                matches!(hatch(&name), None | Some(found) if found == expected),
-                "{name}"
-            );
+            assert!(hatch(&name).is_none_or(|found| found == expected), "{name}");
         }
         assert_eq!(hatch("comic-silver"), Some((true, true)));
     }

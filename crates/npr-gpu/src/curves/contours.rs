@@ -3,6 +3,7 @@
 use super::ranking::{RankedLists, Scheme, add_ranking};
 use super::sums::{Compacted, add_compact};
 use super::work::{IndirectArguments, ListWork, add_work};
+use crate::changes::Changes;
 use crate::engine::{EngineError, Session};
 use crate::graph::{Graph, ResourceId};
 use crate::passes::vector;
@@ -130,12 +131,18 @@ impl Contours {
         before: &HalfEdgeMesh,
         shape: &HalfEdgeMesh,
     ) -> Result<(), EngineError> {
-        session.write(self.positions, bytemuck::cast_slice(&shape.positions))?;
+        Changes::between(&before.positions, &shape.positions).write(
+            session,
+            self.positions,
+            &shape.positions,
+        )?;
         if shape.twins != before.twins {
-            session.write(self.half_edges, bytemuck::cast_slice(&half_edges(shape)))?;
+            let [old, new] = [before, shape].map(half_edges);
+            Changes::between(&old, &new).write(session, self.half_edges, &new)?;
         }
         if shape.degenerate_faces != before.degenerate_faces {
-            session.write(self.judges, &judges(shape))?;
+            let [old, new] = [before, shape].map(judges);
+            Changes::between(&old, &new).write(session, self.judges, &new)?;
         }
         Ok(())
     }

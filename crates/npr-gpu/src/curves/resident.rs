@@ -74,8 +74,8 @@ impl<'a> ResidentShape<'a> {
         })
     }
 
-    /// Takes over a pose of the shape: the same one, with its vertices elsewhere. Positions are handed over, and
-    /// half-edges and judges where they differ.
+    /// Takes over a pose of the shape: the same one, with its vertices elsewhere. Positions, half-edges and judges
+    /// are handed over where they differ.
     ///
     /// # Errors
     ///

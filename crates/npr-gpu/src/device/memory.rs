@@ -73,10 +73,12 @@ impl Memory {
         }
     }
 
-    /// Overwrites it from the start.
-    pub(super) fn write(&self, queue: &wgpu::Queue, words: &[u32]) {
+    /// Overwrites it from a word on; an image from its start.
+    pub(super) fn write_at(&self, queue: &wgpu::Queue, first: usize, words: &[u32]) {
         match self {
-            Self::Buffer(buffer) => queue.write_buffer(buffer, 0, bytemuck::cast_slice(words)),
+            Self::Buffer(buffer) => {
+                queue.write_buffer(buffer, 4 * first as u64, bytemuck::cast_slice(words));
+            }
             Self::Image(image) => image.write(queue, words),
         }
     }

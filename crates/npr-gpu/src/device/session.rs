@@ -77,7 +77,7 @@ impl DeviceSession {
         // Fill what the graph holds from the start.
         for (id, words) in graph.held() {
             let name = graph.resource(id).name;
-            gpu.guarded(name, || memory[id.index()].write(&gpu.queue, words))?;
+            gpu.guarded(name, || memory[id.index()].write_at(&gpu.queue, 0, words))?;
         }
 
         // Compile the passes, and time them where the device has a clock.
@@ -317,17 +317,11 @@ impl DeviceSession {
 }
 
 impl Session for DeviceSession {
-    fn write(&mut self, id: ResourceId, words: &[u32]) -> Result<(), EngineError> {
-        let resource = self.graph.resource(id);
-        assert!(
-            words.len() <= resource.word_count(),
-            "'{}' has no room for {} words",
-            resource.name,
-            words.len()
-        );
+    fn write_at(&mut self, id: ResourceId, first: usize, words: &[u32]) -> Result<(), EngineError> {
+        self.graph.assert_takes(id, first, words.len());
         self.gpu.check()?;
-        self.gpu.guarded(resource.name, || {
-            self.memory[id.index()].write(&self.gpu.queue, words)
+        self.gpu.guarded(self.graph.resource(id).name, || {
+            self.memory[id.index()].write_at(&self.gpu.queue, first, words)
         })
     }
 

@@ -1,6 +1,6 @@
 //! Contours found on both engines against the plain builder.
 
-use crate::shapes::{eyes, shape_from};
+use crate::shapes::{eyes, shape_from, shape_of};
 use crate::shared;
 use npr_gpu::curves::{ResidentShape, Scheme};
 use npr_gpu::engine::{Engine, EngineError, PassTime, Readings, Session};
@@ -224,9 +224,9 @@ impl Engine for Counting {
 }
 
 impl Session for CountingSession {
-    fn write(&mut self, id: ResourceId, words: &[u32]) -> Result<(), EngineError> {
+    fn write_at(&mut self, id: ResourceId, first: usize, words: &[u32]) -> Result<(), EngineError> {
         self.words.set(self.words.get() + words.len());
-        self.session.write(id, words)
+        self.session.write_at(id, first, words)
     }
 
     fn grow(&mut self, id: ResourceId, count: usize) -> Result<(), EngineError> {
@@ -272,18 +272,34 @@ fn a_pose_has_contours_of_its_own() {
     }
 }
 
-/// Of a pose that folds nothing to a line, positions cross to the engine and nothing else.
+/// Of a pose that folds nothing to a line, positions cross to the engine and nothing else; of two meshes those of the
+/// one that moves.
 #[test]
-fn a_pose_hands_over_its_positions_only() {
-    let shape = shape_from(&uv_sphere(32, 20));
-    let mut moved = shape.clone();
-    moved
-        .positions
-        .iter_mut()
-        .for_each(|position| position[0] *= 1.5);
-    let counting = Counting::default();
-    let mut resident = ResidentShape::new(&counting, &shape).unwrap();
-    counting.words.set(0);
-    resident.set_pose(&moved).unwrap();
-    assert_eq!(counting.words.get(), 3 * shape.positions.len());
+fn a_pose_hands_over_the_positions_that_moved_alone() {
+    let ball = shape_from(&uv_sphere(32, 20));
+    let count = ball.positions.len();
+    let beside = ball.positions.iter().map(|[x, y, z]| [x + 5.0, *y, *z]);
+    let positions: Vec<[f32; 3]> = ball.positions.iter().copied().chain(beside).collect();
+    let corners = ball.faces.iter().map(|face| face.map(|v| v + count as u32));
+    let triangles: Vec<[u32; 3]> = ball.faces.iter().copied().chain(corners).collect();
+    let shape = shape_of(&positions, &triangles);
+
+    for (moving, want) in [
+        (0..0, 0),
+        (0..count, count),
+        (count..2 * count, count),
+        (0..2 * count, 2 * count),
+    ] {
+        let mut moved = shape.clone();
+        for position in &mut moved.positions[moving] {
+            position[1] += 0.25;
+        }
+        let counting = Counting::default();
+        let mut resident = ResidentShape::new(&counting, &shape).unwrap();
+        counting.words.set(0);
+        resident.set_pose(&moved).unwrap();
+        assert_eq!(counting.words.get(), 3 * want);
+        let eye = &eyes(1.0)[0];
+        assert!(resident.contours(eye).unwrap() == plain(&moved, eye));
+    }
 }

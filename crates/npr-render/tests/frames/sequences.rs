@@ -225,8 +225,8 @@ impl SpySession {
 }
 
 impl Session for SpySession {
-    fn write(&mut self, id: ResourceId, words: &[u32]) -> Result<(), EngineError> {
-        self.session.write(id, words)
+    fn write_at(&mut self, id: ResourceId, first: usize, words: &[u32]) -> Result<(), EngineError> {
+        self.session.write_at(id, first, words)
     }
 
     fn grow(&mut self, id: ResourceId, count: usize) -> Result<(), EngineError> {
@@ -398,8 +398,13 @@ mod on_devices {
     }
 
     impl Session for DyingSession {
-        fn write(&mut self, id: ResourceId, words: &[u32]) -> Result<(), EngineError> {
-            self.0.write(id, words)
+        fn write_at(
+            &mut self,
+            id: ResourceId,
+            first: usize,
+            words: &[u32],
+        ) -> Result<(), EngineError> {
+            self.0.write_at(id, first, words)
         }
 
         fn grow(&mut self, id: ResourceId, count: usize) -> Result<(), EngineError> {
