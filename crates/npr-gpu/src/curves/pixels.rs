@@ -4,6 +4,7 @@ use super::CurvesError;
 use super::ranking::{RankedLists, Scheme, add_ranking};
 use super::sums::{Compacted, Scan, add_compact, add_scan};
 use super::work::{IndirectArguments, ListWork, add_work};
+use crate::changes::Changes;
 use crate::engine::{Readings, Session};
 use crate::graph::{Graph, ResourceId, area};
 use crate::pass::Format;
@@ -481,6 +482,29 @@ impl PixelContours {
         session.write(self.corners, bytemuck::cast_slice(&shape.faces))?;
         session.write(self.judges, &judges(shape))?;
         session.write(self.edges, bytemuck::cast_slice(edges))?;
+        Ok(())
+    }
+
+    /// Hands a shape over that differs from the one `before` by its pose alone, each with its edges.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::write_shape`].
+    pub fn write_pose(
+        &self,
+        session: &mut dyn Session,
+        (before, old_edges): (&HalfEdgeMesh, &[DrawnEdge]),
+        (shape, edges): (&HalfEdgeMesh, &[DrawnEdge]),
+    ) -> Result<(), CurvesError> {
+        Changes::between(&before.positions, &shape.positions).write(
+            session,
+            self.positions,
+            &shape.positions,
+        )?;
+        if shape.degenerate_faces != before.degenerate_faces {
+            session.write(self.judges, &judges(shape))?;
+        }
+        Changes::between(old_edges, edges).write(session, self.edges, edges)?;
         Ok(())
     }
 

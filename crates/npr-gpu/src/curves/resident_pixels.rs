@@ -9,7 +9,7 @@ use crate::engine::{Engine, PassTime, Readings, Session};
 use crate::graph::Graph;
 use npr_core::crease::Creases;
 use npr_mesh::half_edge::HalfEdgeMesh;
-use npr_vector::pixel_strokes::edge::drawn_edges;
+use npr_vector::pixel_strokes::edge::{DrawnEdge, drawn_edges};
 use npr_vector::pixel_strokes::segment::PixelView;
 use npr_vector::pixel_strokes::strip::Strips;
 use npr_vector::pixel_strokes::stroke::Loops;
@@ -107,17 +107,22 @@ impl<'a> ResidentPixels<'a> {
         }
     }
 
-    /// Takes over a pose of the shape: the same one, with its vertices elsewhere, which is handed over again.
+    /// Takes over a pose of the shape: the same one, with its vertices elsewhere. Positions, judges and edges are
+    /// handed over where they differ.
     ///
     /// # Errors
     ///
     /// [`CurvesError::Engine`] where the engine fails.
     pub fn set_pose(&mut self, shape: &HalfEdgeMesh) -> Result<(), CurvesError> {
-        self.shape.to_mut().clone_from(shape);
         match &mut self.made {
-            Some(made) => made.write_shape(&self.shape),
-            None => Ok(()),
+            Some(made) if shape.edge_count() == self.shape.edge_count() => {
+                made.write_pose(&self.shape, shape)?;
+            }
+            // Wedges that pair anew have other edges: all is made again.
+            _ => self.made = None,
         }
+        self.shape.to_mut().clone_from(shape);
+        Ok(())
     }
 
     /// The picture of a view's lines with its ranked sides, and their loops cut into strips.
@@ -247,12 +252,26 @@ impl Made {
 
     /// Hands the shape over.
     fn write_shape(&mut self, shape: &HalfEdgeMesh) -> Result<(), CurvesError> {
-        let Plan {
-            creases, is_drawn, ..
-        } = &self.plan;
-        let edges = drawn_edges(shape, *creases, is_drawn);
+        let edges = self.edges_of(shape);
         self.contours
             .write_shape(self.session.as_mut(), shape, &edges)
+    }
+
+    /// Hands over what a pose changes of it.
+    fn write_pose(
+        &mut self,
+        before: &HalfEdgeMesh,
+        shape: &HalfEdgeMesh,
+    ) -> Result<(), CurvesError> {
+        let [old, new] = [before, shape].map(|shape| self.edges_of(shape));
+        let session = self.session.as_mut();
+        self.contours
+            .write_pose(session, (before, &old), (shape, &new))
+    }
+
+    /// The edges of a shape that the plan draws.
+    fn edges_of(&self, shape: &HalfEdgeMesh) -> Vec<DrawnEdge> {
+        drawn_edges(shape, self.plan.creases, &self.plan.is_drawn)
     }
 
     /// What a run found, as it was read.
