@@ -473,16 +473,18 @@ pub fn share(part: usize, whole: usize) -> f64 {
     part as f64 / whole.max(1) as f64
 }
 
-/// The middle one of some values, the upper one of two; 0 of none.
+/// Median of how far ends drift, at most 40 pixels each.
 fn drift_of(drifts: &[f64]) -> f64 {
     median(drifts.iter().map(|away| away.min(DRIFT_MOST_PX)))
 }
 
+/// Share of ends that have none within 8 pixels.
 fn lost_of(drifts: &[f64]) -> f64 {
     let lost = drifts.iter().filter(|away| **away > JUMP_PX);
     share(lost.count(), drifts.len())
 }
 
+/// The middle one of some values, the upper one of two; 0 of none.
 fn median(values: impl Iterator<Item = f64>) -> f64 {
     let mut values: Vec<f64> = values.collect();
     let middle = values.len() / 2;

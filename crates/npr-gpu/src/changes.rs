@@ -26,7 +26,7 @@ impl Changes {
     /// # Panics
     ///
     /// Where their lengths differ.
-    pub fn between<T: NoUninit>(before: &[T], after: &[T]) -> Self {
+    fn between<T: NoUninit>(before: &[T], after: &[T]) -> Self {
         assert_eq!(before.len(), after.len(), "a pose has the elements it had");
         let mut changes = Self::default();
         for (number, (old, new)) in before.iter().zip(after).enumerate() {
@@ -68,6 +68,24 @@ impl Changes {
         }
         Ok(())
     }
+}
+
+/// Hands over to a buffer that holds `before` where `after` differs. O(elements).
+///
+/// # Errors
+///
+/// Those of the session.
+///
+/// # Panics
+///
+/// Where the lengths of both differ.
+pub fn write_changes<T: NoUninit>(
+    session: &mut dyn Session,
+    id: ResourceId,
+    before: &[T],
+    after: &[T],
+) -> Result<(), EngineError> {
+    Changes::between(before, after).write(session, id, after)
 }
 
 #[cfg(test)]

@@ -85,19 +85,6 @@ impl Resource {
     }
 }
 
-impl Graph {
-    /// Panics where a resource does not take `count` words from word `first` on.
-    pub(crate) fn assert_takes(&self, id: ResourceId, first: usize, count: usize) {
-        let resource = self.resource(id);
-        let is_image = matches!(resource.kind, Kind::Image { .. });
-        assert!(
-            first.saturating_add(count) <= resource.word_count() && !(is_image && first > 0),
-            "'{}' has no room for {count} words from word {first} on",
-            resource.name,
-        );
-    }
-}
-
 /// Where the engine finds the amount of work of a node: one of the [`Arguments`] of a buffer that earlier passes fill.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct WorkSize {
@@ -440,6 +427,17 @@ impl Graph {
             node.size = None;
         }
         self
+    }
+
+    /// Panics where a resource does not take `count` words from word `first` on.
+    pub(crate) fn assert_takes(&self, id: ResourceId, first: usize, count: usize) {
+        let resource = self.resource(id);
+        let is_image = matches!(resource.kind, Kind::Image { .. });
+        assert!(
+            first.saturating_add(count) <= resource.word_count() && !(is_image && first > 0),
+            "'{}' has no room for {count} words from word {first} on",
+            resource.name,
+        );
     }
 
     /// A resource by its id.

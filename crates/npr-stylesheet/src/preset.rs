@@ -355,6 +355,12 @@ mod tests {
         }
     }
 
+    /// Whether a preset is of the version that a table names first for it, or of a later one.
+    fn is_since(firsts: &[(&str, u32)], preset: &Preset) -> bool {
+        let mut firsts = firsts.iter();
+        firsts.any(|(name, first)| *name == preset.name && *first <= preset.version)
+    }
+
     /// The first version of every preset that leaves out short lines, where there was one that did not.
     const FIRST_WITHOUT_STUBS: [(&str, u32); 34] = [
         ("atmosphere", 3),
@@ -395,12 +401,10 @@ mod tests {
 
     #[test]
     fn versions_from_before_stubs_draw_all_short_lines() {
-        let leaves_out = |older: &&Preset| {
-            let of_name =
-                |(name, first): &(&str, u32)| *name == older.name && *first <= older.version;
-            FIRST_WITHOUT_STUBS.iter().any(of_name)
-        };
-        for older in OLDER.iter().filter(|older| !leaves_out(older)) {
+        for older in OLDER
+            .iter()
+            .filter(|older| !is_since(&FIRST_WITHOUT_STUBS, older))
+        {
             let name = format!("{}@{}", older.name, older.version);
             let line = Style::preset(&name).expect("a preset").line;
             let lengths = [line.crease_least, line.least].map(|length| length.value);
@@ -444,11 +448,7 @@ mod tests {
 
     #[test]
     fn versions_from_before_calm_tones_and_rounded_edges_have_neither() {
-        let is_calm = |older: &&Preset| {
-            let mut firsts = FIRST_CALM.iter();
-            firsts.any(|(name, first)| *name == older.name && *first <= older.version)
-        };
-        for older in OLDER.iter().filter(|older| !is_calm(older)) {
+        for older in OLDER.iter().filter(|older| !is_since(&FIRST_CALM, older)) {
             let style =
                 Style::preset(&format!("{}@{}", older.name, older.version)).expect("a preset");
             let both = [style.shade.calm, style.line.crease_round];
@@ -476,11 +476,9 @@ mod tests {
         };
         for older in OLDER {
             let name = format!("{}@{}", older.name, older.version);
-            let mut firsts = FIRST_ON_LIMBS.iter();
-            let is_on_limbs =
-                firsts.any(|(name, first)| *name == older.name && *first <= older.version);
-            let expected = (is_on_limbs, is_on_limbs);
-            assert!(hatch(&name).is_none_or(|found| found == expected), "{name}");
+            let is_on_limbs = is_since(&FIRST_ON_LIMBS, older);
+            let is_as_then = |found| found == (is_on_limbs, is_on_limbs);
+            assert!(hatch(&name).is_none_or(is_as_then), "{name}");
         }
         assert_eq!(hatch("comic-silver"), Some((true, true)));
     }

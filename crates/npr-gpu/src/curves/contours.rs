@@ -3,7 +3,7 @@
 use super::ranking::{RankedLists, Scheme, add_ranking};
 use super::sums::{Compacted, add_compact};
 use super::work::{IndirectArguments, ListWork, add_work};
-use crate::changes::Changes;
+use crate::changes::write_changes;
 use crate::engine::{EngineError, Session};
 use crate::graph::{Graph, ResourceId};
 use crate::passes::vector;
@@ -103,6 +103,21 @@ pub fn add_contours(
     }
 }
 
+/// Hands over which positions and judges a pose changes.
+pub(super) fn write_moved(
+    session: &mut dyn Session,
+    [positions_id, judges_id]: [ResourceId; 2],
+    before: &HalfEdgeMesh,
+    shape: &HalfEdgeMesh,
+) -> Result<(), EngineError> {
+    write_changes(session, positions_id, &before.positions, &shape.positions)?;
+    if shape.degenerate_faces != before.degenerate_faces {
+        let [old, new] = [before, shape].map(judges);
+        write_changes(session, judges_id, &old, &new)?;
+    }
+    Ok(())
+}
+
 impl Contours {
     /// Hands the shape, which stays from view to view, to the engine.
     ///
@@ -131,18 +146,10 @@ impl Contours {
         before: &HalfEdgeMesh,
         shape: &HalfEdgeMesh,
     ) -> Result<(), EngineError> {
-        Changes::between(&before.positions, &shape.positions).write(
-            session,
-            self.positions,
-            &shape.positions,
-        )?;
+        write_moved(session, [self.positions, self.judges], before, shape)?;
         if shape.twins != before.twins {
             let [old, new] = [before, shape].map(half_edges);
-            Changes::between(&old, &new).write(session, self.half_edges, &new)?;
-        }
-        if shape.degenerate_faces != before.degenerate_faces {
-            let [old, new] = [before, shape].map(judges);
-            Changes::between(&old, &new).write(session, self.judges, &new)?;
+            write_changes(session, self.half_edges, &old, &new)?;
         }
         Ok(())
     }

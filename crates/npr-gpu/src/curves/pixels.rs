@@ -1,10 +1,11 @@
 //! Passes that draw lines into a picture, link and rank the sides of its pixels, and cut them into strips.
 
 use super::CurvesError;
+use super::contours::write_moved;
 use super::ranking::{RankedLists, Scheme, add_ranking};
 use super::sums::{Compacted, Scan, add_compact, add_scan};
 use super::work::{IndirectArguments, ListWork, add_work};
-use crate::changes::Changes;
+use crate::changes::write_changes;
 use crate::engine::{Readings, Session};
 use crate::graph::{Graph, ResourceId, area};
 use crate::pass::Format;
@@ -496,15 +497,8 @@ impl PixelContours {
         (before, old_edges): (&HalfEdgeMesh, &[DrawnEdge]),
         (shape, edges): (&HalfEdgeMesh, &[DrawnEdge]),
     ) -> Result<(), CurvesError> {
-        Changes::between(&before.positions, &shape.positions).write(
-            session,
-            self.positions,
-            &shape.positions,
-        )?;
-        if shape.degenerate_faces != before.degenerate_faces {
-            session.write(self.judges, &judges(shape))?;
-        }
-        Changes::between(old_edges, edges).write(session, self.edges, edges)?;
+        write_moved(session, [self.positions, self.judges], before, shape)?;
+        write_changes(session, self.edges, old_edges, edges)?;
         Ok(())
     }
 

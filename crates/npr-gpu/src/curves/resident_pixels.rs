@@ -93,6 +93,8 @@ struct Made {
     session: Box<dyn Session>,
     contours: PixelContours,
     strips: PixelStrips,
+    /// The edges that the plan draws, as they were handed over.
+    edges: Vec<DrawnEdge>,
 }
 
 impl<'a> ResidentPixels<'a> {
@@ -240,38 +242,32 @@ impl Made {
         let picture = (plan.size, plan.hiding);
         let contours = add_pixel_contours(&mut graph, shape, picture, plan.room, scheme);
         let strips = add_strips(&mut graph, &contours, &plan.path);
-        let mut made = Self {
-            session: engine.prepare(graph)?,
+
+        // Hand the shape over.
+        let edges = drawn_edges(shape, plan.creases, &plan.is_drawn);
+        let mut session = engine.prepare(graph)?;
+        contours.write_shape(session.as_mut(), shape, &edges)?;
+        Ok(Self {
+            session,
             plan,
             contours,
             strips,
-        };
-        made.write_shape(shape)?;
-        Ok(made)
+            edges,
+        })
     }
 
-    /// Hands the shape over.
-    fn write_shape(&mut self, shape: &HalfEdgeMesh) -> Result<(), CurvesError> {
-        let edges = self.edges_of(shape);
-        self.contours
-            .write_shape(self.session.as_mut(), shape, &edges)
-    }
-
-    /// Hands over what a pose changes of it.
+    /// Hands over what a pose changes of the shape.
     fn write_pose(
         &mut self,
         before: &HalfEdgeMesh,
         shape: &HalfEdgeMesh,
     ) -> Result<(), CurvesError> {
-        let [old, new] = [before, shape].map(|shape| self.edges_of(shape));
+        let edges = drawn_edges(shape, self.plan.creases, &self.plan.is_drawn);
         let session = self.session.as_mut();
         self.contours
-            .write_pose(session, (before, &old), (shape, &new))
-    }
-
-    /// The edges of a shape that the plan draws.
-    fn edges_of(&self, shape: &HalfEdgeMesh) -> Vec<DrawnEdge> {
-        drawn_edges(shape, self.plan.creases, &self.plan.is_drawn)
+            .write_pose(session, (before, &self.edges), (shape, &edges))?;
+        self.edges = edges;
+        Ok(())
     }
 
     /// What a run found, as it was read.
