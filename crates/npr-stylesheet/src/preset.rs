@@ -58,10 +58,10 @@ const PRESETS: &[Preset] = presets![
     "inked" 4 "../presets/inked.toml",
     "manga" 5 "../presets/manga.toml",
     "speed" 1 "../presets/speed.toml",
-    "brush" 5 "../presets/brush.toml",
-    "ink-wash" 5 "../presets/ink-wash.toml",
+    "brush" 6 "../presets/brush.toml",
+    "ink-wash" 6 "../presets/ink-wash.toml",
     "sketch" 4 "../presets/sketch.toml",
-    "pencil-outline" 4 "../presets/pencil-outline.toml",
+    "pencil-outline" 5 "../presets/pencil-outline.toml",
     "charcoal" 4 "../presets/charcoal.toml",
     "chalkboard" 6 "../presets/chalkboard.toml",
     "blueprint" 4 "../presets/blueprint.toml",
@@ -98,6 +98,7 @@ const OLDER: &[Preset] = presets![
     "brush" 2 "../presets/older/brush-2.toml",
     "brush" 3 "../presets/older/brush-3.toml",
     "brush" 4 "../presets/older/brush-4.toml",
+    "brush" 5 "../presets/older/brush-5.toml",
     "cel-2" 1 "../presets/older/cel-2-1.toml",
     "cel-2" 2 "../presets/older/cel-2-2.toml",
     "cel-2" 3 "../presets/older/cel-2-3.toml",
@@ -157,6 +158,7 @@ const OLDER: &[Preset] = presets![
     "ink-wash" 2 "../presets/older/ink-wash-2.toml",
     "ink-wash" 3 "../presets/older/ink-wash-3.toml",
     "ink-wash" 4 "../presets/older/ink-wash-4.toml",
+    "ink-wash" 5 "../presets/older/ink-wash-5.toml",
     "inked" 1 "../presets/older/inked-1.toml",
     "inked" 2 "../presets/older/inked-2.toml",
     "inked" 3 "../presets/older/inked-3.toml",
@@ -180,6 +182,7 @@ const OLDER: &[Preset] = presets![
     "pencil-outline" 1 "../presets/older/pencil-outline-1.toml",
     "pencil-outline" 2 "../presets/older/pencil-outline-2.toml",
     "pencil-outline" 3 "../presets/older/pencil-outline-3.toml",
+    "pencil-outline" 4 "../presets/older/pencil-outline-4.toml",
     "plain" 1 "../presets/older/plain-1.toml",
     "screentone" 1 "../presets/older/screentone-1.toml",
     "screentone" 2 "../presets/older/screentone-2.toml",
@@ -413,7 +416,7 @@ mod tests {
     }
 
     /// The first version of presets with calm tones and rounded edges, where a newer one came after it.
-    const FIRST_CALM: [(&str, u32); 20] = [
+    const FIRST_CALM: [(&str, u32); 21] = [
         ("blueprint", 3),
         ("brush", 4),
         ("chalkboard", 4),
@@ -428,6 +431,7 @@ mod tests {
         ("manga", 4),
         ("pencil", 5),
         ("screentone", 4),
+        ("pencil-outline", 4),
         ("simple-comic", 5),
         ("sketch", 3),
         ("smoke-comic", 4),
