@@ -30,8 +30,8 @@ use glam::DVec3;
 use identity::settle_ids;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use rayon::prelude::*;
-use remembered::{Known, Line, Place, sampled};
-use votes::{Tally, Vote, tally, votes_of};
+use remembered::{Known, Line, sampled};
+use votes::{LEAST_SHARED, Tally, Vote, tally, votes_of};
 use way::{measure, reverse};
 
 /// Frames for which ink that nothing took over is remembered: what is hidden for a moment comes back as it was.
@@ -68,6 +68,16 @@ pub struct HeldStrokes {
     forward: Option<DVec3>,
 }
 
+/// What may become of the ends of strokes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ends {
+    /// They stay where they were found.
+    Stay,
+    /// Visible ends in the open of lines that were there grow by 8 pixels a frame at most, unless they grow by more
+    /// than 24: an end that is now here and now a little further on would leap all the time.
+    Grow,
+}
+
 /// The strokes of the frame before, in the view of this one.
 #[derive(Debug)]
 pub struct StrokesInView {
@@ -82,25 +92,19 @@ impl StrokesInView {
 }
 
 impl HeldStrokes {
-    /// What is known of the frame before, in a view of the shape as it is posed now. O(samples).
-    pub fn in_view(&self, shape: &HalfEdgeMesh, projector: &Projector) -> StrokesInView {
+    /// What is known of the frame before, in a view of the shape as it is posed now; nothing where the camera jumped.
+    /// O(samples).
+    pub fn in_view(&mut self, shape: &HalfEdgeMesh, projector: &Projector) -> StrokesInView {
+        let forward = projector.forward();
+        if self
+            .forward
+            .is_some_and(|before| before.dot(forward) < TURN_COS)
+        {
+            *self = Self::default();
+        }
         StrokesInView {
             known: Known::new(&self.lines, &self.samples, shape, projector),
         }
-    }
-
-    /// As [`HeldStrokes::hold`], where strokes may be shortened: visible ends in the open of lines that were there grow
-    /// by 8 pixels a frame at most, unless they grow by more than 24.
-    ///
-    /// An end that is now here and now a little further on would leap all the time; so it stays about where it is
-    /// nearer.
-    pub fn hold_growing(
-        &mut self,
-        strokes: &mut Vec<Stroke>,
-        shape: &HalfEdgeMesh,
-        projector: &Projector,
-    ) {
-        self.take_over(strokes, shape, projector, true);
     }
 
     /// Gives the strokes of a frame what they had in the frame before, and remembers them.
@@ -115,28 +119,20 @@ impl HeldStrokes {
     ///
     /// O(pixels of line), on all threads, with the same result for any number of them.
     pub fn hold(&mut self, strokes: &mut Vec<Stroke>, shape: &HalfEdgeMesh, projector: &Projector) {
-        self.take_over(strokes, shape, projector, false);
+        let before = self.in_view(shape, projector);
+        self.hold_to(before, strokes, (shape, projector), Ends::Stay);
     }
 
-    /// As [`HeldStrokes::hold`], with ends that grow or do not.
-    fn take_over(
+    /// As [`HeldStrokes::hold`], where the frame before is [in view](Self::in_view) already.
+    pub fn hold_to(
         &mut self,
+        before: StrokesInView,
         strokes: &mut Vec<Stroke>,
-        shape: &HalfEdgeMesh,
-        projector: &Projector,
-        grows: bool,
+        (shape, projector): (&HalfEdgeMesh, &Projector),
+        ends: Ends,
     ) {
-        // Forget all where the camera jumped.
-        let forward = projector.forward();
-        if self
-            .forward
-            .is_some_and(|before| before.dot(forward) < TURN_COS)
-        {
-            *self = Self::default();
-        }
-
-        // Find what is known in the new view, and how the strokes lie on it.
-        let mut known = Known::new(&self.lines, &self.samples, shape, projector);
+        // See what the strokes were.
+        let StrokesInView { mut known } = before;
         let mut tallies: Vec<Tally> = strokes
             .par_iter()
             .map(|stroke| tally(&known, stroke))
@@ -153,7 +149,7 @@ impl HeldStrokes {
         }
 
         // Let ends grow.
-        if grows && !self.lines.is_empty() {
+        if ends == Ends::Grow && !self.lines.is_empty() {
             for number in growth::slow_growth(strokes, &known) {
                 measure(&mut strokes[number].points);
                 tallies[number] = tally(&known, &strokes[number]);
@@ -161,7 +157,7 @@ impl HeldStrokes {
         }
 
         // Turn strokes as they ran, start rings where they started, and shift the textures.
-        let of_strokes = strokes.par_iter_mut().zip(&tallies);
+        let of_strokes = strokes.par_iter_mut().zip(&mut tallies);
         let taken: Vec<Vec<Vote>> = of_strokes
             .map(|(stroke, tally)| {
                 if tally.vote_count == 0 {
@@ -170,14 +166,18 @@ impl HeldStrokes {
                 if tally.is_reversed {
                     reverse(stroke);
                 }
+                let mut is_other = tally.is_reversed;
                 if let (true, Some(line)) = (stroke.closed, tally.main_line())
                     && seam::start_at(stroke, known.start_of(line))
                 {
                     measure(&mut stroke.points);
+                    is_other = true;
                 }
-                let samples = sampled(stroke);
-                let votes = votes_of(&known, stroke, &samples);
-                phase::shift(stroke, &samples, &votes, &known);
+                let (places, votes) = match is_other {
+                    true => votes_of(&known, stroke),
+                    false => std::mem::take(&mut tally.votes),
+                };
+                phase::shift(stroke, &places, &votes, &known);
                 votes.into_iter().flatten().collect()
             })
             .collect();
@@ -188,8 +188,16 @@ impl HeldStrokes {
         // Remember them, and what of the frames before nothing took over.
         let left = self.left_over(taken.iter().flatten());
         *self = left;
-        for (stroke, rank) in strokes.iter().zip(0..) {
-            self.remember((stroke, rank), shape, projector);
+        let samples_of = |stroke: &Stroke| -> Vec<remembered::Sample> {
+            let places = sampled(stroke).into_par_iter();
+            let shared = places.with_min_len(LEAST_SHARED);
+            shared
+                .map(|place| place.remembered(shape, projector))
+                .collect()
+        };
+        let samples: Vec<_> = strokes.par_iter().map(samples_of).collect();
+        for ((stroke, samples), rank) in strokes.iter().zip(samples).zip(0..) {
+            self.remember((stroke, rank), samples);
         }
         self.forward = Some(projector.forward());
     }
@@ -223,12 +231,8 @@ impl HeldStrokes {
         left
     }
 
-    fn remember(
-        &mut self,
-        (stroke, rank): (&Stroke, u32),
-        shape: &HalfEdgeMesh,
-        projector: &Projector,
-    ) {
+    /// Remembers a stroke by samples along it.
+    fn remember(&mut self, (stroke, rank): (&Stroke, u32), samples: Vec<remembered::Sample>) {
         let line = Line {
             id: stroke.id,
             whole_id: stroke.line(),
@@ -243,12 +247,7 @@ impl HeldStrokes {
             rank,
             samples: [0; 2],
         };
-        let samples: Vec<Place> = sampled(stroke);
-        let samples = samples.iter();
-        self.add(
-            line,
-            samples.map(|place| place.remembered(shape, projector)),
-        );
+        self.add(line, samples.into_iter());
     }
 
     fn add(&mut self, line: Line, samples: impl Iterator<Item = remembered::Sample>) {

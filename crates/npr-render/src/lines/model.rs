@@ -42,6 +42,7 @@ use npr_drawing::pressure::Pressure;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use npr_scene::Scene;
 use npr_stylesheet::{DepthSpace, Look, Style};
+use npr_vector::hold::Ends;
 use npr_vector::mesh_lines::bvh::FaceTree;
 use npr_vector::mesh_lines::contour::EdgeContours;
 use npr_vector::mesh_lines::draw::{
@@ -467,7 +468,7 @@ impl LineModel {
         );
         let mut held = held.map(|held| held.of(options.method));
         let known = held
-            .as_ref()
+            .as_mut()
             .map(|held| held.strokes.in_view(&self.shape, &projector));
         let was_between = |tips: &[Tip; 2]| match &known {
             Some(known) => known.between(tips),
@@ -484,11 +485,12 @@ impl LineModel {
         watch(WidthStep::Source, &strokes);
         paint.apply(&mut strokes);
         watch(WidthStep::Part, &strokes);
-        if let Some(held) = &mut held {
-            match options.method.is_of_pixels() {
-                true => (held.strokes).hold(&mut strokes, &self.shape, &projector),
-                false => (held.strokes).hold_growing(&mut strokes, &self.shape, &projector),
-            }
+        if let (Some(held), Some(known)) = (&mut held, known) {
+            let ends = match options.method.is_of_pixels() {
+                true => Ends::Stay,
+                false => Ends::Grow,
+            };
+            (held.strokes).hold_to(known, &mut strokes, (&self.shape, &projector), ends);
         }
         if let Some(stroke_contrast) = stroke_contrast {
             stroke_contrast.apply(&mut strokes, &|surface| paint.line_color(surface));

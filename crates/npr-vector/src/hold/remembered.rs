@@ -1,7 +1,7 @@
 //! What is kept of a frame's strokes, and where it shows in the next one.
 
 use crate::mesh_lines::anchor::Anchor;
-use crate::mesh_lines::near::{Cells, cell_of, cells_around};
+use crate::mesh_lines::near::{Cells, cells_within};
 use crate::mesh_lines::run::distance;
 use crate::project::Projector;
 use crate::stroke::{Kind, Stroke};
@@ -16,6 +16,9 @@ pub(super) const STEP_PX: f64 = 2.0;
 
 /// Distance up to which a sample may be one of the frame before, in pixels.
 pub(super) const REACH_PX: f64 = 3.0;
+
+/// Side of the cells that samples are sorted into: what is within reach lies in four of them.
+const CELL_PX: f64 = 2.0 * REACH_PX;
 
 /// A place on a remembered stroke.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -197,7 +200,7 @@ impl Known {
         }
 
         // Sort them by place.
-        let mut near = Cells::new(REACH_PX);
+        let mut near = Cells::with_room(CELL_PX, seen.len());
         for (sample, number) in seen.iter().zip(0_u32..) {
             if sample.position.iter().all(|v| v.is_finite()) {
                 near.add(sample.position, number);
@@ -210,10 +213,11 @@ impl Known {
         }
     }
 
-    /// Samples near a place, with their numbers, in an order that hangs on nothing but them.
+    /// All samples within reach of a place and some more, with their numbers, in an order that hangs on nothing but
+    /// them.
     pub fn around(&self, place: [f64; 2]) -> impl Iterator<Item = (u32, &Seen)> {
         let cells = self.near.iter();
-        let near = cells.flat_map(move |near| near.of(cells_around(cell_of(place, REACH_PX))));
+        let near = cells.flat_map(move |near| near.of(cells_within(place, REACH_PX, CELL_PX)));
         near.map(|number| (*number, &self.samples[*number as usize]))
     }
 

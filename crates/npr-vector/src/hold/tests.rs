@@ -65,6 +65,17 @@ fn stroke(id: u64, places: &[[f64; 2]], closed: bool, right: f32) -> Stroke {
     }
 }
 
+/// Holds strokes whose ends may grow.
+fn hold_growing(
+    state: &mut HeldStrokes,
+    strokes: &mut Vec<Stroke>,
+    shape: &HalfEdgeMesh,
+    view: &Projector,
+) {
+    let before = state.in_view(shape, view);
+    state.hold_to(before, strokes, (shape, view), Ends::Grow);
+}
+
 fn line(id: u64, from: f64, to: f64, y: f64) -> Stroke {
     stroke(id, &[[from, y], [to, y]], false, 0.0)
 }
@@ -297,7 +308,7 @@ proptest! {
                     ends.reverse();
                 }
                 let mut strokes = vec![line(1, ends[0], ends[1], 50.0)];
-                state.hold_growing(&mut strokes, &shape, &view);
+                hold_growing(&mut state, &mut strokes, &shape, &view);
                 prop_assert_eq!(strokes.len(), 1);
                 let places = || strokes[0].points.iter().map(|point| point.position[0]);
                 let [least, most] = [places().fold(f64::MAX, f64::min), places().fold(0.0, f64::max)];
@@ -320,7 +331,7 @@ fn what_grows_by_far_comes_at_once_and_what_is_new_too() {
     let (shape, view, mut state) = (sheet(0.0), view(0.0), HeldStrokes::default());
     let mut drawn = |strokes: Vec<Stroke>| -> Vec<f64> {
         let mut strokes = strokes;
-        state.hold_growing(&mut strokes, &shape, &view);
+        hold_growing(&mut state, &mut strokes, &shape, &view);
         strokes.iter().map(Stroke::length).collect()
     };
     drawn(vec![line(1, 100.0, 200.0, 50.0)]);
@@ -334,13 +345,14 @@ fn an_end_that_meets_another_line_comes_at_once() {
     let length = |x: f64| {
         let (shape, view, mut state) = (sheet(0.0), view(0.0), HeldStrokes::default());
         let across = || stroke(2, &[[x, 20.0], [x, 90.0]], false, 0.0);
-        state.hold_growing(
+        hold_growing(
+            &mut state,
             &mut vec![line(1, 100.0, 200.0, 50.0), across()],
             &shape,
             &view,
         );
         let mut strokes = vec![line(1, 100.0, 215.0, 50.0), across()];
-        state.hold_growing(&mut strokes, &shape, &view);
+        hold_growing(&mut state, &mut strokes, &shape, &view);
         strokes[0].length()
     };
     assert_eq!(length(216.0), 115.0);

@@ -3,6 +3,7 @@
 use super::remembered::{Known, Place, REACH_PX, sampled};
 use crate::mesh_lines::run::distance;
 use crate::stroke::Stroke;
+use rayon::prelude::*;
 use std::collections::BTreeMap;
 
 /// Least cosine between the directions of both, whichever way they run.
@@ -13,6 +14,9 @@ const LEAST_COS: f64 = 0.7;
 const OTHER_KIND_PX: f64 = 0.4;
 const OTHER_SIGHT_PX: f64 = 1.5;
 const OLDER_PX: f64 = 0.5;
+
+/// Least number of places that are worth a thread of their own.
+pub(super) const LEAST_SHARED: usize = 256;
 
 /// A place of a stroke that was there before.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,7 +41,12 @@ pub(super) struct Tally {
     pub is_reversed: bool,
     /// Lines that they were on, those with most of them first, with their counts.
     pub lines: Vec<(usize, u32)>,
+    /// The places of the stroke as it was found, and the vote of each.
+    pub votes: PlacesAndVotes,
 }
+
+/// Places along a stroke, and the vote of each; none where nothing was there.
+pub(super) type PlacesAndVotes = (Vec<Place>, Vec<Option<Vote>>);
 
 impl Tally {
     /// The line that most of the stroke was part of.
@@ -55,8 +64,9 @@ impl Tally {
     }
 }
 
-/// The vote of each place of a stroke; none where nothing was there.
-pub(super) fn votes_of(known: &Known, stroke: &Stroke, places: &[Place]) -> Vec<Option<Vote>> {
+/// Places along a stroke, and the vote of each.
+pub(super) fn votes_of(known: &Known, stroke: &Stroke) -> PlacesAndVotes {
+    let places = sampled(stroke);
     let is_hidden = !stroke.is_visible();
     let vote = |place: &Place| {
         // Take the sample that fits best; of two as good, the one with the lower number.
@@ -87,16 +97,17 @@ pub(super) fn votes_of(known: &Known, stroke: &Stroke, places: &[Place]) -> Vec<
         }
         best.map(|(_, _, vote)| vote)
     };
-    places.iter().map(vote).collect()
+    let shared = places.par_iter().with_min_len(LEAST_SHARED);
+    let votes = shared.map(vote).collect();
+    (places, votes)
 }
 
 /// What a stroke was, before it is turned as it was.
 pub(super) fn tally(known: &Known, stroke: &Stroke) -> Tally {
-    let places = sampled(stroke);
-    let votes = votes_of(known, stroke, &places);
+    let (places, votes) = votes_of(known, stroke);
     let mut lines: BTreeMap<u32, usize> = BTreeMap::new();
     let (mut vote_count, mut along_count) = (0, 0);
-    for vote in votes.into_iter().flatten() {
+    for vote in votes.iter().flatten() {
         *lines.entry(vote.line).or_default() += 1;
         vote_count += 1;
         along_count += usize::from(vote.is_along);
@@ -111,5 +122,6 @@ pub(super) fn tally(known: &Known, stroke: &Stroke) -> Tally {
         vote_count,
         is_reversed: 2 * along_count < vote_count,
         lines,
+        votes: (places, votes),
     }
 }

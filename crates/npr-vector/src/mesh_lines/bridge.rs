@@ -70,20 +70,21 @@ pub(crate) fn bridge_gaps(runs: Vec<Run>, held: Option<&mut JointsInView<'_>>) -
         let [from, to] = [end_a, end_b].map(|end| DVec2::from(end.place));
         let [out_a, out_b] = [end_a, end_b].map(|end| DVec2::from(end.out));
         let (length, across) = ((to - from).length(), to - from);
-        let limits = Limits::of(bonds.of([a, b]));
+        let between = [a, b].map(|end| &runs[end / 2]);
+        let is_contour =
+            |run: &&Run| run.kind == Kind::Contour && run.occluders == 0 && !run.closed;
+        if a / 2 == b / 2 || !between.iter().all(is_contour) {
+            return None;
+        }
+        let limits = Limits::of(meetings.bond([a, b])?);
         let aims = [out_a, -out_b]
             .iter()
             .all(|out| out.dot(across) >= limits.straight_cos * length);
-        let is_fit = aims
+        let is_long = |run: &&Run| length <= limits.share * run.length();
+        let is_so = aims
             && length <= limits.reach * BRIDGED_PX
             && -out_a.dot(out_b) >= limits.straight_cos
-            && meetings.may_join([a, b]);
-        let runs = [a, b].map(|end| &runs[end / 2]);
-        let is_contour =
-            |run: &&Run| run.kind == Kind::Contour && run.occluders == 0 && !run.closed;
-        let is_long = |run: &&Run| length <= limits.share * run.length();
-        let is_so =
-            is_fit && a / 2 != b / 2 && runs.iter().all(|run| is_contour(run) && is_long(run));
+            && between.iter().all(is_long);
         is_so.then_some(Gap {
             ends: [a, b],
             from,

@@ -6,16 +6,20 @@
 //! line in the end, as a double does, was not joined to it.
 
 use crate::mesh_lines::anchor::Anchor;
-use crate::mesh_lines::near::{Cells, cell_of, cells_around};
+use crate::mesh_lines::near::{Cells, cells_within};
 use crate::mesh_lines::run::{Run, distance};
 use crate::project::Projector;
 use crate::stroke::Kind;
 use glam::DVec3;
 use npr_core::geometry::NONE;
 use npr_mesh::half_edge::HalfEdgeMesh;
+use rayon::prelude::*;
 
 /// Distance up to which an end may be one of the frame before, in pixels.
 const REACH_PX: f64 = 8.0;
+
+/// Side of the cells that ends are sorted into: what is within reach lies in four of them.
+const CELL_PX: f64 = 2.0 * REACH_PX;
 
 /// Least cosine between the directions of both.
 const LEAST_COS: f64 = 0.5;
@@ -25,6 +29,9 @@ const LEAST_COS: f64 = 0.5;
 const ACROSS_PX: f64 = 4.0;
 const OTHER_NAME_PX: f64 = 0.5;
 const OLDER_PX: f64 = 0.5;
+
+/// Least number of ends that are worth a thread of their own.
+const LEAST_SHARED: usize = 128;
 
 /// Frames for which joints are remembered whose ends are not there.
 const FRAMES_MOST: u8 = 4;
@@ -228,35 +235,42 @@ impl<'a> JointsInView<'a> {
         }
 
         // Find what is known in the new view.
-        let mut near = Cells::new(REACH_PX);
-        for (end, number) in before.iter().zip(0_u32..) {
-            if let Some(place) = end.anchor.place(self.shape, self.projector) {
+        let place_of = |end: &HeldEnd| end.anchor.place(self.shape, self.projector);
+        let places: Vec<Option<[f64; 2]>> = before
+            .par_iter()
+            .with_min_len(LEAST_SHARED)
+            .map(place_of)
+            .collect();
+        let mut near = Cells::with_room(CELL_PX, before.len());
+        for (place, number) in places.into_iter().zip(0_u32..) {
+            if let Some(place) = place {
                 near.add(place, (number, place));
             }
         }
 
         // Compare each end with those around it.
-        let mut fits: Vec<(f64, usize, u32)> = Vec::new();
-        for (number, tip) in tips.iter().enumerate() {
-            let Some(tip) = tip else { continue };
+        let fits_of = |(number, tip): (usize, &Option<Tip>)| -> Vec<(f64, usize, u32)> {
+            let Some(tip) = tip else { return Vec::new() };
             let id = runs[number / 2].id;
-            for (other, place) in near.of(cells_around(cell_of(tip.place, REACH_PX))) {
+            let fit = |(other, place): &(u32, [f64; 2])| {
                 let end = &before[*other as usize];
                 let cos = tip.out[0] * f64::from(end.out[0]) + tip.out[1] * f64::from(end.out[1]);
                 let away = distance(*place, tip.place);
                 let is_alike = (end.kind, end.is_hidden) == (tip.kind, tip.is_hidden);
-                if is_alike && cos >= LEAST_COS && away <= REACH_PX {
-                    let cost = away
-                        + ACROSS_PX * (1.0 - cos)
-                        + OTHER_NAME_PX * f64::from(u8::from(end.id != id))
-                        + OLDER_PX * f64::from(end.age);
-                    fits.push((cost, number, *other));
-                }
-            }
-        }
+                let cost = away
+                    + ACROSS_PX * (1.0 - cos)
+                    + OTHER_NAME_PX * f64::from(u8::from(end.id != id))
+                    + OLDER_PX * f64::from(end.age);
+                (is_alike && cos >= LEAST_COS && away <= REACH_PX).then_some((cost, number, *other))
+            };
+            let around = near.of(cells_within(tip.place, REACH_PX, CELL_PX));
+            around.filter_map(fit).collect()
+        };
+        let of_tips = tips.par_iter().enumerate().with_min_len(LEAST_SHARED);
+        let mut fits: Vec<(f64, usize, u32)> = of_tips.flat_map_iter(fits_of).collect();
 
         // Take the best ones, each end once.
-        fits.sort_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
+        fits.par_sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
         let mut found = Bonds {
             tips: tips.to_vec(),
             was: vec![NONE; tips.len()],

@@ -213,8 +213,14 @@ impl<'a> Meetings<'a> {
         // Find what is near, and what was joined.
         let mut pairs = near_pairs(ends, reach_px);
         if !bonds.is_empty() {
-            let wide = near_pairs(ends, Limits::of(Bond::Joined).reach * reach_px).into_iter();
-            pairs.extend(wide.filter(|pair| bonds.of(*pair) == Bond::Continued));
+            let is_new = |[a, b]: &[usize; 2]| {
+                let ends = ends[*a].as_ref().zip(ends[*b].as_ref());
+                ends.is_some_and(|(a, b)| distance(a.place, b.place) > reach_px)
+                    && runs[a / 2].may_join(&runs[b / 2])
+                    && bonds.of([*a, *b]) == Bond::Continued
+            };
+            let wide = near_pairs(ends, Limits::of(Bond::Joined).reach * reach_px);
+            pairs.extend(wide.into_iter().filter(is_new));
             pairs.extend(bonds.joined());
             pairs.sort_unstable();
             pairs.dedup();
@@ -246,18 +252,14 @@ impl<'a> Meetings<'a> {
         Some(distance(end_a.place, end_b.place))
     }
 
-    /// The limits within which two ends are joined.
-    pub fn limits(&self, pair: [usize; 2]) -> Limits {
-        Limits::of(self.bonds.of(pair))
-    }
-
-    /// Whether the lines of two ends are alike, and both lie about as deep.
-    pub fn may_join(&self, [a, b]: [usize; 2]) -> bool {
-        let (Some(end_a), Some(end_b)) = (&self.ends[a], &self.ends[b]) else {
-            return false;
-        };
-        let most = self.limits([a, b]).depth_share * end_a.depth.abs();
-        (end_a.depth - end_b.depth).abs() <= most && self.runs[a / 2].may_join(&self.runs[b / 2])
+    /// What two ends were in the frame before, if their lines are alike, and both lie about as deep.
+    pub fn bond(&self, [a, b]: [usize; 2]) -> Option<Bond> {
+        let (end_a, end_b) = (self.ends[a].as_ref()?, self.ends[b].as_ref()?);
+        let apart = (end_a.depth - end_b.depth).abs();
+        let is_within = |bond: Bond| apart <= Limits::of(bond).depth_share * end_a.depth.abs();
+        let may_be = is_within(Bond::Joined) && self.runs[a / 2].may_join(&self.runs[b / 2]);
+        let bond = may_be.then(|| self.bonds.of([a, b]));
+        bond.filter(|bond| is_within(*bond))
     }
 
     /// How badly two ends fit; `None` where they must not be joined.
@@ -266,12 +268,12 @@ impl<'a> Meetings<'a> {
         let run_a = &self.runs[a / 2];
         let (end_a, end_b) = (self.ends[a].as_ref()?, self.ends[b].as_ref()?);
         let same = a / 2 == b / 2;
-        if !self.may_join([a, b]) || (same && run_a.length() < 4.0 * DIRECTION_PX) {
+        if same && run_a.length() < 4.0 * DIRECTION_PX {
             return None;
         }
+        let limits = Limits::of(self.bond([a, b])?);
 
         // Look whether one goes on as the other, or they meet at a corner.
-        let limits = self.limits([a, b]);
         let gap = self.gap([a, b])?;
         let straight = -dot(end_a.out, end_b.out);
         let is_near = gap <= limits.reach * self.reach_px;

@@ -24,6 +24,15 @@ impl<T> Cells<T> {
         }
     }
 
+    /// The same, with room for a number of things.
+    pub fn with_room(side: f64, count: usize) -> Self {
+        Self {
+            ends: HashMap::with_capacity_and_hasher(count, FixedState::default()),
+            things: Vec::with_capacity(count),
+            ..Self::new(side)
+        }
+    }
+
     /// Adds a thing at a place, behind those of its cell.
     pub fn add(&mut self, place: [f64; 2], thing: T) {
         let index = self.things.len() as u32;
