@@ -461,3 +461,122 @@ fn a_cloud_is_wide_and_bright_above_and_has_no_lines() {
     let darkest = frame.rgba.chunks(4).map(|p| p[0]).min().unwrap();
     assert!(darkest >= sky[0], "no line: {darkest}");
 }
+
+/// A painting: two colours mixed by hills of paint, drawn out into strokes from left to right.
+fn painting(size: [u32; 2], [low, high]: [[f32; 3]; 2]) -> Picture {
+    let places = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| [x as f32, y as f32]));
+    let rgba = places.flat_map(|[x, y]| {
+        let share = npr_core::grain::paper_height([0.3 * x, y], 0.12);
+        let [r, g, b] = [0, 1, 2].map(|i| (low[i] + share * (high[i] - low[i])) as u8);
+        [r, g, b, 255]
+    });
+    Picture {
+        size,
+        rgba: rgba.collect(),
+    }
+}
+
+/// Brightness of a pixel, 0 to 255.
+fn brightness(frame: &Frame, at: usize) -> f32 {
+    let [r, g, b] = [0, 1, 2].map(|i| f32::from(frame.rgba[4 * at + i]));
+    0.3 * r + 0.59 * g + 0.11 * b
+}
+
+/// Share of neighbours within smoke that are of one colour.
+fn flatness(frame: &Frame, alone: &Frame) -> f32 {
+    let is_smoke = |at: usize| alone.rgba[4 * at + 3] == 255;
+    let color = |at: usize| &frame.rgba[4 * at..4 * at + 3];
+    let pixels = (0..alone.rgba.len() / 4 - 1).filter(|at| is_smoke(*at) && is_smoke(at + 1));
+    let within: Vec<usize> = pixels.collect();
+    let flat = within.iter().filter(|at| color(**at) == color(**at + 1));
+    flat.count() as f32 / within.len() as f32
+}
+
+/// Least difference of brightness that is a clear step: an eighth of all.
+const CLEAR_STEP: f32 = 32.0;
+
+/// Share of the edge of smoke at which the picture has a clear step within four pixels.
+fn readable_edge(frame: &Frame, alone: &Frame) -> f32 {
+    let [width, height] = frame.size.map(|side| side as i32);
+    let alpha = |x: i32, y: i32| alone.rgba[4 * (y * width + x) as usize + 3];
+    let inner = (4..height - 4).flat_map(|y| (4..width - 4).map(move |x| (x, y)));
+    let is_edge = |(x, y): &(i32, i32)| {
+        let around = [(1, 0), (-1, 0), (0, 1), (0, -1)];
+        alpha(*x, *y) > 0 && around.iter().any(|(dx, dy)| alpha(x + dx, y + dy) == 0)
+    };
+    let is_clear = |(x, y): &&(i32, i32)| {
+        let around = (-4..=4).flat_map(|dy| (-4..=4).map(move |dx| (x + dx, y + dy)));
+        let [least, most] = around.fold([255.0_f32, 0.0], |[least, most], (x, y)| {
+            let own = brightness(frame, (y * width + x) as usize);
+            [least.min(own), most.max(own)]
+        });
+        most - least >= CLEAR_STEP
+    };
+    let edge: Vec<(i32, i32)> = inner.filter(is_edge).collect();
+    edge.iter().filter(is_clear).count() as f32 / edge.len() as f32
+}
+
+/// Smoke is calmer than the painting that it stands before, stays the same before each, and its edge can be read even
+/// where both are as bright: the line does that.
+#[test]
+fn smoke_sits_before_paintings() {
+    let film = SmokeFilm::new(Source::Plume, PAPER, 40);
+    let size = [640, 480];
+    let model = Model::new(&Scene::default()).unwrap();
+    let paintings = [
+        ("snow", [[212.0, 216.0, 228.0], [255.0; 3]]),
+        ("night", [[16.0, 20.0, 34.0], [62.0, 70.0, 96.0]]),
+        ("dusk", [[150.0, 84.0, 92.0], [250.0, 186.0, 120.0]]),
+    ];
+    for preset in ["smoke-cel-2", "smoke-cel-3"] {
+        let drawn = |settings: &[&str], picture: Option<Picture>| {
+            let mut style = Style::preset(preset).unwrap();
+            let behind = match picture {
+                Some(_) => "background=painting.png",
+                None => "background=transparent",
+            };
+            for setting in [behind].iter().chain(settings) {
+                style.set(setting).unwrap();
+            }
+            let options = RendererOptions {
+                smoke: Some(film.last(&style)),
+                background_image: picture,
+                ..RendererOptions::new(size)
+            };
+            let mut renderer = Renderer::new(&Processor, &model, &style, &options).unwrap();
+            renderer.draw(&orbit_camera(0.0)).unwrap()
+        };
+        let alone = drawn(&[], None);
+        for (name, colors) in paintings {
+            // Compare it with the painting, and with itself before nothing.
+            let picture = painting(size, colors);
+            let behind = Frame {
+                rgba: picture.rgba.clone(),
+                ..alone.clone()
+            };
+            let before = drawn(&[], Some(picture.clone()));
+            keep(&format!("{preset}-before-{name}"), &before);
+            let [own, painted] = [&before, &behind].map(|frame| flatness(frame, &alone));
+            assert!(
+                own > 0.75 && painted < 0.5,
+                "{preset}, {name}: {own} beside {painted}"
+            );
+            for (own, alone) in before.rgba.chunks_exact(4).zip(alone.rgba.chunks_exact(4)) {
+                let is_as_alone = own.iter().zip(alone).all(|(a, b)| a.abs_diff(*b) <= 1);
+                assert!(
+                    alone[3] < 255 || is_as_alone,
+                    "{preset}, {name}: {own:?} for {alone:?}"
+                );
+            }
+
+            // Read its edge.
+            let readable = readable_edge(&before, &alone);
+            assert!(readable > 0.98, "{preset}, {name}: {readable}");
+            if name == "snow" {
+                let bare = drawn(&["smoke.line.width=0"], Some(picture));
+                let readable = readable_edge(&bare, &alone);
+                assert!(readable < 0.9, "{preset}: without a line {readable}");
+            }
+        }
+    }
+}
