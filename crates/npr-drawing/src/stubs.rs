@@ -21,6 +21,9 @@ const HELD_PX: f64 = 3.0;
 /// What is left of a stroke that was cut goes, too, if it is shorter, in pixels: it would be a dash between two lines.
 const LEAST_LEFT_PX: f64 = 9.0;
 
+/// Widest gap between the ink of two lines that nobody sees, in pixels.
+const UNSEEN_GAP_PX: f64 = 0.5;
+
 /// Distance of the places of a stroke at which it is looked for others, in pixels.
 const STEP_PX: f64 = 1.0;
 
@@ -37,7 +40,8 @@ const ROUNDS_MOST: usize = 16;
 /// it where none does, if it is below those pixels. A line meets places within half its width, and within 4.5 pixels;
 /// the border of the picture holds ends as lines do, and so does the paper around the drawing: no end is open beyond
 /// which no line lies to one side of the picture, so outlines stay. Two strokes whose ends meet and that meet nothing
-/// else there are one line, so a long fold in short strokes stays. Stubs go in rounds, 16 at most: what met them alone
+/// else there are one line, so a long fold in short strokes stays. A stroke below 9 pixels is only met by lines whose
+/// ink touches its own, or it would stay as a dash between them. Stubs go in rounds, 16 at most: what met them alone
 /// may be one then. O(points + pixels of short strokes + meetings), on all threads, with the same result for any
 /// number of them.
 pub fn remove_stubs(
@@ -221,7 +225,22 @@ impl Net {
                     position: *position,
                 })
         });
-        let is_met = |found: &Meeting| found.with != found.stroke;
+        let half_width = |stroke: &Stroke| {
+            let widths = stroke.points.iter().map(|point| f64::from(point.width));
+            0.5 * widths.fold(0.0, f64::max)
+        };
+        let half_widths: Vec<f64> = strokes.par_iter().map(half_width).collect();
+        let is_dash = |stroke: usize| {
+            let line = self.lines[stroke].as_ref();
+            line.is_some_and(|line| line.course.length() < LEAST_LEFT_PX)
+        };
+        let touches = |found: &Meeting| {
+            let ink = half_widths[found.stroke] + half_widths[found.with];
+            found.distance <= ink + UNSEEN_GAP_PX
+        };
+        let is_met = |found: &Meeting| {
+            found.with != found.stroke && (!is_dash(found.stroke) || touches(found))
+        };
         let met = meetings_at(all, strokes, (REACH, MEETS_PX)).filter(is_met);
         let mut met: Vec<Meeting> = met.collect();
         let order = |found: &Meeting| (found.stroke, found.with, found.place);
