@@ -226,7 +226,7 @@ impl Net {
                 })
         });
         let half_width = |stroke: &Stroke| {
-            let widths = stroke.points.iter().map(|point| f64::from(point.width));
+            let widths = stroke.points.iter().map(|point| point.width);
             0.5 * widths.fold(0.0, f64::max)
         };
         let half_widths: Vec<f64> = strokes.par_iter().map(half_width).collect();

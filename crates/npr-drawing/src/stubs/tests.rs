@@ -80,19 +80,18 @@ fn a_rung_stays_and_what_ends_in_the_open_goes() {
     assert_eq!(left(&[posts[0], posts[1], rung, half]), [0, 1, 2]);
 }
 
+/// Lines are 3 pixels wide.
 #[test]
-fn a_dash_between_two_lines_goes_unless_its_ink_touches_one() {
-    let posts: [&[[f64; 2]]; 2] = [
-        &[[50.0, 20.0], [50.0, 220.0]],
-        &[[61.9, 20.0], [61.9, 220.0]],
-    ];
-    let dash = |from: f64, to: f64| left(&[posts[0], posts[1], &[[from, 60.0], [to, 60.0]]]);
-    let width = f64::from(stroke_of(posts[0]).points[0].width);
-    assert!(width < 2.8, "gaps of 3 pixels are seen");
-    assert_eq!(dash(53.3, 58.6), [0, 1]);
-    assert_eq!(dash(50.0 + width + 0.4, 58.6), [0, 1, 2]);
-    assert_eq!(dash(50.0 + width + 0.6, 58.6), [0, 1]);
-    assert_eq!(dash(51.0, 61.0), [0, 1, 2]);
+fn a_dash_between_two_lines_goes_unless_its_ink_touches_both() {
+    let between = |right: f64, [from, to]: [f64; 2]| {
+        let posts = [50.0, right].map(|x| [[x, 20.0], [x, 220.0]]);
+        let dash = [[from, 60.0], [to, 60.0]];
+        left(&[&posts[0], &posts[1], &dash]).contains(&2)
+    };
+    assert!(!between(63.0, [54.0, 59.0]), "gaps of a pixel are seen");
+    assert!(!between(63.0, [53.4, 59.0]), "beside one of them, too");
+    assert!(between(63.0, [53.4, 59.6]), "gaps of 0.4 are not");
+    assert!(between(67.2, [54.0, 63.2]), "it is a line");
 }
 
 /// A mast on a roof is no stub, though its top is open.
