@@ -6,6 +6,9 @@ use proptest::prelude::*;
 
 const SIDE: u32 = 64;
 
+/// Pixels from its sides within which a triangle covers the middle of the nearest pixel: half a diagonal.
+const HALF_DIAGONAL_PX: f32 = 0.71;
+
 /// Least height of a large triangle, seen along the z axis.
 const LEAST_HEIGHT: f32 = 0.3;
 
@@ -88,6 +91,15 @@ impl Seen {
         pixels.map(|pixel| self.ids[pixel as usize]).collect()
     }
 
+    /// How far within the picture of a triangle that of a point lies, in pixels.
+    fn depth_in(&self, triangle: &[[f32; 3]; 3], world: [f32; 3]) -> f32 {
+        let place = |world: [f32; 3]| glam::Vec2::from(self.sample(world).spine_px);
+        let (corners, at) = (triangle.map(place), place(world));
+        let sides = (0..3).map(|i| (corners[i], corners[(i + 1) % 3]));
+        let away = sides.map(|(a, b)| (b - a).perp_dot(at - a).abs() / (b - a).length());
+        away.fold(f32::INFINITY, f32::min)
+    }
+
     /// Whether a point of the world is seen, and how far in front lies what hides it.
     fn sees(&self, world: [f32; 3]) -> (bool, f32) {
         let on = Scenery {
@@ -155,8 +167,9 @@ fn crosses(
 proptest! {
     #![proptest_config(ProptestConfig { max_global_rejects: 50_000, ..ProptestConfig::with_cases(1500) })]
 
-    /// A point is hidden where the way to it from the eye crosses a large triangle that is seen at one of the nine
-    /// pixels around, and seen where it crosses none. No pixel may show the tip of a sharp corner.
+    /// A point is hidden where the way to it from the eye crosses a large triangle, and seen where it crosses none.
+    /// Left out is a point under the tip of a sharp corner alone, so near to its sides that none of the nine pixels
+    /// around shows it.
     #[test]
     fn samples_are_hidden_by_what_lies_on_their_way(
         triangles in prop::collection::vec(prop::array::uniform3(prop::array::uniform3(-1.0f32..1.0)), 1..5),
@@ -170,13 +183,16 @@ proptest! {
         let known: Option<Vec<bool>> =
             triangles.iter().map(|corners| crosses(*corners, point, is_parallel, 0.02)).collect();
         prop_assume!(known.is_some());
-        let crossed = known.unwrap_or_default();
 
+        // Find what hides it, and whether pixels show that.
         let seen = Seen::new(&triangles, is_parallel);
         let around = seen.ids_around(point);
-        let is_around = |(index, _): &(usize, bool)| around.contains(&(*index as u32 + 1));
-        let hiders = crossed.into_iter().enumerate().filter(|(_, crossed)| *crossed).collect::<Vec<_>>();
-        prop_assume!(hiders.is_empty() || hiders.iter().any(is_around));
+        let crossed = known.into_iter().flatten();
+        let hiders: Vec<usize> = (0..).zip(crossed).filter_map(|(index, crossed)| crossed.then_some(index)).collect();
+        let shows = |index: &usize| {
+            around.contains(&(*index as u32 + 1)) || seen.depth_in(&triangles[*index], point) >= HALF_DIAGONAL_PX
+        };
+        prop_assume!(hiders.is_empty() || hiders.iter().any(shows));
 
         let (found, gap) = seen.sees(point);
         prop_assert_eq!(found, hiders.is_empty());
