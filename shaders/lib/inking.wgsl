@@ -22,6 +22,9 @@ const LOOSE: f32 = 0.3;
 // Share of the hatch, from its lightest part, that full chart distortion fills with ink at once.
 const DISTORTION_FILL: f32 = 0.22;
 
+// Part of a pixel that is inked at a time where the crest of a stroke may lie within it.
+const THIRD: f32 = 0.33333334;
+
 fn ink_coverage(f: f32, slope: f32, threshold: f32) -> f32 {
     return clamp((threshold - f) / max(slope, 1e-6) + 0.5, 0.0, 1.0);
 }
@@ -106,16 +109,61 @@ fn ink_of_level(part: u32, l: f32) -> f32 {
 
 // Ink of hatched surface at the luminance `l` of its shade ramp, which changes F by `darkens` over a pixel.
 fn ink_of_hatch(part: u32, place: HatchCoord, l: f32, darkens: vec2<f32>, calm: Calm) -> f32 {
-    let layer = hatch_layer(part, place);
-    let first = sharpened(part, scaled(layer, share_of_first(part, layer.s)));
-    let ink = hatch_coverage(part, first, l, darkens, calm);
-    return ink_of_second(part, place, first.s, ink, l, darkens, calm);
+    let ink = ink_of_layer(part, place, false, l, darkens, calm);
+    return ink_of_second(part, place, ink, l, darkens, calm);
 }
 
-fn hatch_coverage(part: u32, layer: Hatching, l: f32, darkens: vec2<f32>, calm: Calm) -> f32 {
-    let hatching = toned_hatch(untied(layer, calm.chart_distortion), max(calm.abrupt, calm.cut));
-    let slope = max(length(hatching.slope + darkens), hatching.hairline);
-    return ink_coverage(tone_value(hatching.s, l), slope, parts[part].threshold);
+// One of the layers of a hatch at a place of its sheet.
+fn layer_at(part: u32, sheet: HatchSheet, place: HatchCoord, is_second: bool, calm: Calm) -> Hatching {
+    let raw = hatch_at_place(part, sheet, place);
+    let layer = sharpened(part, scaled(raw, share_of_layer(part, raw.s, is_second)));
+    return toned_hatch(untied(layer, calm.chart_distortion), max(calm.abrupt, calm.cut));
+}
+
+// Ink of one layer of a hatch over a pixel, 0..1, and the luminance S at its middle. Where the crest of a stroke or of
+// a gap may lie within the pixel, its thirds across the strokes are inked one by one.
+fn ink_of_layer(
+    part: u32,
+    place: HatchCoord,
+    is_second: bool,
+    l: f32,
+    darkens: vec2<f32>,
+    calm: Calm,
+) -> vec2<f32> {
+    let sheet = hatch_sheet(part, place);
+    let middle = layer_at(part, sheet, place, is_second, calm);
+    let threshold = parts[part].threshold;
+    let value = tone_value(middle.s, l);
+    let is_plain = (parts[part].flags & PART_ISOTROPIC) != 0u
+        || abs(value - threshold) > parts[part].hatch_gain / parts[part].spacing_px;
+    if is_plain { return vec2<f32>(ink_coverage(value, layer_slope(middle, darkens), threshold), middle.s); }
+    let across = across_strokes(place);
+    var sum = ink_coverage(value, layer_slope(middle, darkens) * THIRD, threshold);
+    for (var i = 0u; i < 2u; i++) {
+        let off = select(-THIRD, THIRD, i == 1u);
+        let layer = layer_at(part, sheet, place_beside(place, across, off), is_second, calm);
+        let darker = (across.x * darkens.x + across.y * darkens.y) * off;
+        sum += ink_coverage(tone_value(layer.s, l) + darker, layer_slope(layer, darkens) * THIRD, threshold);
+    }
+    return vec2<f32>(sum * THIRD, middle.s);
+}
+
+// Change of F over a pixel with which the edges of a layer are smoothed.
+fn layer_slope(layer: Hatching, darkens: vec2<f32>) -> f32 {
+    return max(length(layer.slope + darkens), layer.hairline);
+}
+
+// Direction in the picture, to the right and down, in which places leave a stroke the fastest.
+fn across_strokes(place: HatchCoord) -> vec2<f32> {
+    let leaving = vec2<f32>(place.right.x, place.down.x);
+    return leaving / max(length(leaving), 1e-9);
+}
+
+// The place `px` pixels further on in a direction of the picture.
+fn place_beside(place: HatchCoord, direction: vec2<f32>, px: f32) -> HatchCoord {
+    var further = place;
+    further.uv += (place.right * direction.x + place.down * direction.y) * px;
+    return further;
 }
 
 // One of the three corners of a triangle in its chart.
@@ -201,8 +249,15 @@ fn sharpened(part: u32, layer: Hatching) -> Hatching {
     return scaled(layer, vec2<f32>(sharpen(layer.s, gain), gain));
 }
 
-// One layer of a hatch, from the level of its tile on which strokes lie as far apart on screen as the part asks.
-fn hatch_layer(part: u32, place: HatchCoord) -> Hatching {
+// A level of the tile of a hatch: its first texel, texels per side, and how far towards the next level, 0..1.
+struct HatchSheet {
+    first: u32,
+    side: u32,
+    fraction: f32,
+}
+
+// The level of the tile of a hatch on which strokes lie as far apart on screen as the part asks.
+fn hatch_sheet(part: u32, place: HatchCoord) -> HatchSheet {
     let header = parts[part].hatch;
     let side = texels[header];
     let step = max(step_of(place, (parts[part].flags & PART_ISOTROPIC) != 0u), 1e-9);
@@ -210,15 +265,21 @@ fn hatch_layer(part: u32, place: HatchCoord) -> Hatching {
     let detail = log2(step * f32(side) * parts[part].spacing_px / spacing_texels);
     let coarsest = f32(max(texels[header + 2u], 1u) - 1u);
     let held = min(max(detail, 0.0), coarsest);
+    var sheet: HatchSheet;
     let level = u32(held);
-    let fraction = held - floor(held);
-    let level_side = side >> level;
+    sheet.fraction = held - floor(held);
+    sheet.side = side >> level;
     // Skip the levels before it, each four times as large as the next.
-    let first = header + HEADER_WORDS + 4u * (side * side - level_side * level_side) / 3u;
-    let found = sample_hatch(first, level_side, place.uv, fraction);
+    sheet.first = header + HEADER_WORDS + 4u * (side * side - sheet.side * sheet.side) / 3u;
+    return sheet;
+}
+
+// One layer of a hatch at a place.
+fn hatch_at_place(part: u32, sheet: HatchSheet, place: HatchCoord) -> Hatching {
+    let found = sample_hatch(sheet.first, sheet.side, place.uv, sheet.fraction);
     var hatching: Hatching;
     hatching.s = found.x;
-    hatching.slope = vec2<f32>(dot(found.yz, place.right), dot(found.yz, place.down)) * f32(level_side);
+    hatching.slope = vec2<f32>(dot(found.yz, place.right), dot(found.yz, place.down)) * f32(sheet.side);
     // On the ridge of a stroke S is flat, and a hairline would be all ink in one pixel and none in the next.
     hatching.hairline = 1.0 / parts[part].spacing_px;
     return hatching;

@@ -23,31 +23,22 @@ fn second_of_two(s: f32, start: f32) -> vec2<f32> {
     return vec2<f32>(1.0 - rest * white * white, 2.0 * rest * white);
 }
 
-// `first_of_two` for parts of two layers; others keep their luminance.
-fn share_of_first(part: u32, s: f32) -> vec2<f32> {
+// `first_of_two` or `second_of_two` for parts of two layers; others keep their luminance.
+fn share_of_layer(part: u32, s: f32, is_second: bool) -> vec2<f32> {
     if (parts[part].flags & PART_TWO_LAYERS) == 0u { return vec2<f32>(s, 1.0); }
+    if is_second { return second_of_two(s, parts[part].second_from); }
     return first_of_two(s, parts[part].second_from);
 }
 
-// Ink of both layers where the first has luminance `first` and the share `ink` of ink.
-fn ink_of_second(
-    part: u32,
-    place: HatchCoord,
-    first: f32,
-    ink: f32,
-    l: f32,
-    darkens: vec2<f32>,
-    calm: Calm,
-) -> f32 {
-    if (parts[part].flags & PART_TWO_LAYERS) == 0u { return ink; }
+// Ink of both layers where that of the first is `ink.x`, and its luminance `ink.y`.
+fn ink_of_second(part: u32, place: HatchCoord, ink: vec2<f32>, l: f32, darkens: vec2<f32>, calm: Calm) -> f32 {
+    if (parts[part].flags & PART_TWO_LAYERS) == 0u { return ink.x; }
     // The first layer settles most places, or they are too light for the second.
-    if ink == 1.0 || !second_may_ink(part, l) { return ink; }
+    if ink.x == 1.0 || !second_may_ink(part, l) { return ink.x; }
     var crossed: HatchCoord;
     crossed.uv = place.uv.yx + 0.5;
     crossed.right = place.right.yx;
     crossed.down = place.down.yx;
-    let layer = hatch_layer(part, crossed);
-    let second = sharpened(part, scaled(layer, second_of_two(layer.s, parts[part].second_from)));
-    if first <= second.s { return ink; }
-    return hatch_coverage(part, second, l, darkens, calm);
+    let second = ink_of_layer(part, crossed, true, l, darkens, calm);
+    return select(second.x, ink.x, ink.y <= second.y);
 }

@@ -33,6 +33,9 @@ const LOOSE: f32 = 0.3;
 /// Share of the hatch, from its lightest part, that full chart distortion fills with ink at once.
 const DISTORTION_FILL: f32 = 0.22;
 
+/// Part of a pixel that is inked at a time where the crest of a stroke may lie within it.
+const THIRD: f32 = 0.333_333_34;
+
 /// Luminance L of the shade ramp at coordinate `x`: black up to `dark_at`, white from `light_at`, grey between.
 pub fn shade_level(x: f32, dark_at: f32, light_at: f32) -> f32 {
     if light_at <= dark_at {
@@ -150,6 +153,22 @@ impl HatchCoord {
         }
     }
 
+    /// Direction in the picture, to the right and down, in which places leave a stroke the fastest.
+    fn across(&self) -> [f32; 2] {
+        let (right, down) = (self.right[0], self.down[0]);
+        let per_px = length([right, down]).max(1e-9);
+        [right / per_px, down / per_px]
+    }
+
+    /// The place `px` pixels further on in a direction of the picture.
+    fn moved(&self, [right, down]: [f32; 2], px: f32) -> Self {
+        let step = |i: usize| self.right[i] * right + self.down[i] * down;
+        Self {
+            uv: [0, 1].map(|i| self.uv[i] + step(i) * px),
+            ..*self
+        }
+    }
+
     /// Tiles that a pixel covers across the strokes; if `isotropic`, the mean of both directions.
     fn step(&self, isotropic: bool) -> f32 {
         let (right, down) = (self.right, self.down);
@@ -250,31 +269,36 @@ impl Layers<'_> {
         darkens: [f32; 2],
         calm: Calm,
     ) -> f32 {
-        let coverage = |layer: Hatching| {
-            let share = calm.abrupt.max(calm.cut);
-            let hatching = toned_hatch(untied(layer, calm.chart_distortion), share);
-            let [right, down] = hatching.slope;
-            let slope = length([right + darkens[0], down + darkens[1]]).max(hatching.hairline);
-            ink_coverage(tone_value(hatching.s, l), slope, part.threshold)
+        // Draw the first layer, which is all of most hatches.
+        let calmed = |layer: Hatching| {
+            let layer = untied(sharpened(layer, part.hatch_gain), calm.chart_distortion);
+            toned_hatch(layer, calm.abrupt.max(calm.cut))
         };
-        let layer = self.layer(part, place);
+        let sheet = self.sheet(part, place);
         if part.flags & Part::TWO_LAYERS == 0 {
-            return coverage(sharpened(layer, part.hatch_gain));
+            return ink_of_layer(part, place, (l, darkens), |place| calmed(sheet.at(place))).0;
         }
-        let first = scaled(layer, first_of_two(layer.s, part.second_from));
-        let first = sharpened(first, part.hatch_gain);
-        let ink = coverage(first);
+        let first = |place: &HatchCoord| {
+            let layer = sheet.at(place);
+            calmed(scaled(layer, first_of_two(layer.s, part.second_from)))
+        };
+        let (ink, lightest) = ink_of_layer(part, place, (l, darkens), first);
+
         // The first layer settles most places, or they are too light for the second.
         if ink == 1.0 || !second_may_ink(part, l) {
             return ink;
         }
-        let layer = self.layer(part, &place.crossed());
-        let second = scaled(layer, second_of_two(layer.s, part.second_from));
-        let second = sharpened(second, part.hatch_gain);
-        if first.s <= second.s {
+        let crossed = place.crossed();
+        let sheet = self.sheet(part, &crossed);
+        let second = |place: &HatchCoord| {
+            let layer = sheet.at(place);
+            calmed(scaled(layer, second_of_two(layer.s, part.second_from)))
+        };
+        let (second_ink, second_lightest) = ink_of_layer(part, &crossed, (l, darkens), second);
+        if lightest <= second_lightest {
             ink
         } else {
-            coverage(second)
+            second_ink
         }
     }
 
@@ -379,8 +403,8 @@ impl Layers<'_> {
         [0, 1].map(|i| blend(weights, shares.map(|share| share[i])))
     }
 
-    /// One layer of a hatch, from the level of its tile on which strokes lie as far apart on screen as the part asks.
-    fn layer(&self, part: &Part, place: &HatchCoord) -> Hatching {
+    /// The level of the tile of a hatch on which strokes lie as far apart on screen as the part asks.
+    fn sheet(&self, part: &Part, place: &HatchCoord) -> HatchSheet<'_> {
         let header = part.hatch as usize;
         let side = self.texels[header];
         let step = place.step(part.flags & Part::ISOTROPIC != 0).max(1e-9);
@@ -392,16 +416,77 @@ impl Layers<'_> {
         let before = 4 * (side * side - level_side * level_side) / 3;
         let first = header + (HEADER_WORDS + before) as usize;
         let texels = &self.texels[first..][..(level_side * level_side) as usize];
-        let found = sample(bytemuck::cast_slice(texels), level_side, place.uv, fraction);
+        HatchSheet {
+            texels: bytemuck::cast_slice(texels),
+            side: level_side,
+            fraction,
+            hairline: edge_gradient(0.0, part.spacing_px),
+        }
+    }
+}
+
+/// A level of the tile of a hatch.
+#[derive(Debug, Clone, Copy)]
+struct HatchSheet<'a> {
+    texels: &'a [[u8; 4]],
+    side: u32,
+    /// How far towards the next level, 0..1.
+    fraction: f32,
+    /// Least change over a pixel with which edges are smoothed.
+    hairline: f32,
+}
+
+impl HatchSheet<'_> {
+    /// One layer of the hatch at a place.
+    fn at(&self, place: &HatchCoord) -> Hatching {
+        let found = sample(self.texels, self.side, place.uv, self.fraction);
         let along = |[du, dv]: [f32; 2]| {
-            (found.gradient[0] * du + found.gradient[1] * dv) * level_side as f32
+            (found.gradient[0] * du + found.gradient[1] * dv) * self.side as f32
         };
         Hatching {
             s: found.luminance,
             slope: [along(place.right), along(place.down)],
-            hairline: edge_gradient(0.0, part.spacing_px),
+            hairline: self.hairline,
         }
     }
+}
+
+/// Ink of one layer of a hatch over a pixel, 0..1, and the luminance S at its middle. The shade ramp has luminance `l`
+/// there and changes F by `darkens` over a pixel; `at` is the layer at a place.
+///
+/// One straight edge is no picture of a hairline, which has two: where it runs through the middle of a pixel it would
+/// cover half of it at least, and next to nothing where it runs between two, so that slanting tips of strokes would be
+/// rows of dots. Where the crest of a stroke or of a gap may lie within the pixel, its thirds across the strokes are
+/// therefore inked one by one.
+fn ink_of_layer(
+    part: &Part,
+    place: &HatchCoord,
+    (l, darkens): (f32, [f32; 2]),
+    at: impl Fn(&HatchCoord) -> Hatching,
+) -> (f32, f32) {
+    let slope_of = |layer: &Hatching| {
+        let [right, down] = layer.slope;
+        length([right + darkens[0], down + darkens[1]]).max(layer.hairline)
+    };
+    let middle = at(place);
+    let value = tone_value(middle.s, l);
+    let is_plain = part.flags & Part::ISOTROPIC != 0
+        || (value - part.threshold).abs() > part.hatch_gain / part.spacing_px;
+    if is_plain {
+        return (
+            ink_coverage(value, slope_of(&middle), part.threshold),
+            middle.s,
+        );
+    }
+    let across = place.across();
+    let third = |layer: &Hatching, off: f32| {
+        let darker = (across[0] * darkens[0] + across[1] * darkens[1]) * off;
+        let value = tone_value(layer.s, l) + darker;
+        ink_coverage(value, slope_of(layer) * THIRD, part.threshold)
+    };
+    let beside = |off: f32| third(&at(&place.moved(across, off)), off);
+    let sum = third(&middle, 0.0) + beside(-THIRD) + beside(THIRD);
+    (sum * THIRD, middle.s)
 }
 
 impl Layers<'_> {
@@ -503,6 +588,13 @@ pub(crate) fn length(v: [f32; 2]) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::backdrop::Rules;
+    use crate::compose::Compose;
+    use crate::hatch::{Hatch, levels};
+    use crate::lighting::Lights;
+    use npr_core::math;
+    use npr_core::texture::TextureStore;
+    use npr_core::window::{View, Window};
     use proptest::prelude::*;
 
     #[test]
@@ -603,6 +695,105 @@ mod tests {
         #[test]
         fn hatch_without_ink_leaves_paper(x in 0f32..1.0) {
             prop_assert!(tone_value(1.0, level_of(&part(Part::HATCH), x)) > 0.5);
+        }
+    }
+
+    const SIDE: usize = 160;
+
+    /// Ink of strokes at an angle whose tone runs from black to white, from left to right or from top to bottom.
+    fn ramp_of_strokes(angle: f32, spacing_px: f32, is_down: bool) -> Vec<f32> {
+        let hatch = Hatch {
+            length: 60.0,
+            ..Hatch::default()
+        };
+        let tile = levels(&hatch, 256).unwrap();
+        let words: Vec<Vec<u32>> = tile
+            .levels
+            .iter()
+            .map(|level| bytemuck::cast_slice(level).to_vec())
+            .collect();
+        let mut store = TextureStore::new();
+        let part = Part {
+            flags: Part::INK | Part::HATCH,
+            threshold: 0.5,
+            light_at: 1.0,
+            hatch: store
+                .add_tile(tile.side, tile.spacing_texels, &words)
+                .unwrap(),
+            hatch_gain: 1.0,
+            spacing_px,
+            turn: [math::cos(angle), math::sin(angle)],
+            ..Part::default()
+        };
+        let size = [SIDE as f32; 2];
+        let window = Window::over(size, [0.0; 2], size, [SIDE as u32; 2]);
+        let (view, lights, rules, compose) = (
+            View::default(),
+            Lights::default(),
+            Rules::default(),
+            Compose::default(),
+        );
+        let layers = Layers {
+            texels: store.words(),
+            ..Layers::empty(&view, &window, &compose, &lights, &rules)
+        };
+        let scale = tile.spacing_texels / (tile.side as f32 * spacing_px);
+        let per_px = 0.6 / SIDE as f32;
+        let change = if is_down {
+            [0.0, per_px]
+        } else {
+            [per_px, 0.0]
+        };
+        let ink_at = |i: usize| {
+            let at = [(i % SIDE) as f32 + 0.5, (i / SIDE) as f32 + 0.5];
+            layers.ink_on_sheet(
+                &part,
+                at,
+                scale,
+                0.2 + per_px * at[usize::from(is_down)],
+                change,
+            )
+        };
+        (0..SIDE * SIDE).map(ink_at).collect()
+    }
+
+    /// Pieces of up to `most` pixels that are in, joined by sides and corners, away from the picture's border.
+    fn specks(is_in: impl Fn(usize) -> bool, most: usize) -> usize {
+        let mut seen = vec![false; SIDE * SIDE];
+        let mut specks = 0;
+        for start in 0..SIDE * SIDE {
+            let mut open = vec![start];
+            let (mut size, mut is_inside) = (0, true);
+            while let Some(i) = open.pop() {
+                if std::mem::replace(&mut seen[i], true) || !is_in(i) {
+                    continue;
+                }
+                size += 1;
+                let [x, y] = [i % SIDE, i / SIDE];
+                is_inside &= (1..SIDE - 1).contains(&x) && (1..SIDE - 1).contains(&y);
+                for v in y.saturating_sub(1)..(y + 2).min(SIDE) {
+                    open.extend((x.saturating_sub(1)..(x + 2).min(SIDE)).map(|u| v * SIDE + u));
+                }
+            }
+            specks += usize::from(is_inside && (1..=most).contains(&size));
+        }
+        specks
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(12))]
+
+        /// Strokes end in hairlines and so does the paper between them, whatever angle they have to the pixels; a
+        /// hairline that only covers pixels through whose middle it runs would be a row of dots, 35 to 140 of them.
+        #[test]
+        fn hairlines_are_no_rows_of_dots(first in 0f32..0.2, spacing_px in 8f32..12.0) {
+            let mut dots = [0, 0];
+            for i in 0..8 {
+                let ink = ramp_of_strokes(first + 0.19 * i as f32, spacing_px, i % 2 == 0);
+                dots[0] += specks(|i| ink[i] > 0.2, 8);
+                dots[1] += specks(|i| ink[i] < 0.8, 8);
+            }
+            prop_assert!(dots[0] + dots[1] <= 20, "dots of ink and of paper: {:?}", dots);
         }
     }
 }

@@ -25,6 +25,13 @@ const TAIL: f32 = 0.4;
 /// Length of a blunt tip in spacings.
 const BLUNT_TIP: f32 = 0.7;
 
+/// Difference of heights from which on the white between two strokes is round: within a tenth of a spacing of its
+/// crest. More would close what lies between strokes that are near each other.
+const CREST: f32 = 0.375;
+
+/// Half the width in spacings of the round bottom of a stroke.
+const BOTTOM: f32 = 0.075;
+
 /// Noise streams, one for each thing that varies.
 const SHAKE: u32 = 0x1000;
 const PRESSURE: u32 = 0x2000;
@@ -87,9 +94,9 @@ impl Strokes {
         let middle = centre.floor() as i32;
         for x in middle - reach..=middle + reach + 1 {
             let dx = x as f32 - centre;
-            let height = lifted + blunt(dx) * slopes[usize::from(dx > 0.0)];
+            let height = lifted + blunt(dx, BOTTOM * spacing) * slopes[usize::from(dx > 0.0)];
             let texel = &mut heights[x.rem_euclid(self.drawing.side as i32) as usize];
-            *texel = texel.min(height);
+            *texel = lower_of(*texel, height);
         }
     }
 
@@ -181,8 +188,14 @@ impl Strokes {
 /// Distance in texels from a centre line, with a round bottom.
 ///
 /// With a sharp one, minima would lie between texels here and there, and hairlines would turn into beads.
-fn blunt(dx: f32) -> f32 {
-    (dx * dx + 0.1).sqrt()
+fn blunt(dx: f32, bottom: f32) -> f32 {
+    (dx * dx + bottom * bottom).sqrt()
+}
+
+/// The lower of two heights, with a round crest for the same reason: the last white between strokes is a hairline, too.
+fn lower_of(a: f32, b: f32) -> f32 {
+    let near = (1.0 - (a - b).abs() / CREST).max(0.0);
+    a.min(b) - 0.25 * CREST * near * near
 }
 
 /// Whether track `i` of the `count` newest is among those that stay until `step`.
@@ -267,6 +280,23 @@ mod tests {
         fn tracks_never_cross(level in 0u32..6, step in 0..=STEPS, seed: u32, v in 0.0f32..1.0) {
             let tracks = drawn(16 << level, step, seed, v);
             prop_assert!(tracks.windows(2).all(|pair| pair[0].u < pair[1].u));
+        }
+
+        /// Between texels both the bottom of a stroke and the crest of white beside it come out as on them: sharp ones
+        /// would rise and fall by an eighth of the way between them, and hairlines would be beads.
+        #[test]
+        fn hairlines_stay_even_between_texels(off in 0.0f32..1.0, spacing in 8.0f32..16.0) {
+            let height = |x: f32, centre: f32| blunt(x - centre, BOTTOM * spacing) * 2.0 / spacing;
+            let between = |x: f32| lower_of(height(x, off), height(x, off + spacing));
+            let texels: Vec<f32> = (-9..28).map(|x| between(x as f32)).collect();
+            let at = |x: f32| {
+                let i = (x.floor() + 9.0) as usize;
+                math::mix(texels[i], texels[i + 1], x - x.floor())
+            };
+            let (bottom, crest) = (off, off + 0.5 * spacing);
+            prop_assert!((at(bottom) - between(bottom)).abs() < 0.05, "bottom {} is {}", between(bottom), at(bottom));
+            prop_assert!((at(crest) - between(crest)).abs() < 0.05, "crest {} is {}", between(crest), at(crest));
+            prop_assert!(between(crest) - between(bottom) > 0.5);
         }
     }
 }
