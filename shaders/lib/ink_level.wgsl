@@ -6,7 +6,7 @@
 //# use lib/tone_word
 
 // Share of ink from which dots are tone to the knife; of strokes, which taper off, any ink is.
-const LEAST_INK: f32 = 0.015;
+const LEAST_INK: f32 = 0.08;
 
 // Share of ink from which it is black to the knife.
 const NEARLY_BLACK: f32 = 0.85;

@@ -22,8 +22,9 @@ pub(crate) const PAPER: u32 = 1;
 /// Ink without a hatch.
 pub(crate) const BLACK: u32 = 2;
 
-/// Share of ink from which dots are tone to the knife; of strokes, which taper off, any ink is.
-const LEAST_INK: f32 = 0.015;
+/// Share of ink from which dots are tone to the knife: smaller ones would be grey specks. Of strokes, which taper off,
+/// any ink is.
+const LEAST_INK: f32 = 0.08;
 
 /// Share of ink from which it is black to the knife.
 const NEARLY_BLACK: f32 = 0.85;
@@ -300,7 +301,7 @@ mod tests {
             flags: strokes.flags | Part::ISOTROPIC,
             ..strokes
         };
-        let tones_of = |part: Part| [0.3, 0.4, 0.7, 0.748, 0.9].map(|l| cut_tone_of(&part, l));
+        let tones_of = |part: Part| [0.3, 0.4, 0.7, 0.735, 0.9].map(|l| cut_tone_of(&part, l));
         assert_eq!(tones_of(dots), [BLACK, TONE, TONE, PAPER, PAPER]);
         // Strokes taper off, and end where they have no ink.
         assert_eq!(tones_of(strokes), [BLACK, TONE, TONE, TONE, PAPER]);
