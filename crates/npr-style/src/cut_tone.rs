@@ -301,9 +301,10 @@ mod tests {
             flags: strokes.flags | Part::ISOTROPIC,
             ..strokes
         };
-        let tones_of = |part: Part| [0.3, 0.4, 0.7, 0.735, 0.9].map(|l| cut_tone_of(&part, l));
-        assert_eq!(tones_of(dots), [BLACK, TONE, TONE, PAPER, PAPER]);
+        let tones_of =
+            |part: Part| [0.3, 0.4, 0.7, 0.735, 0.748, 0.9].map(|l| cut_tone_of(&part, l));
+        assert_eq!(tones_of(dots), [BLACK, TONE, TONE, PAPER, PAPER, PAPER]);
         // Strokes taper off, and end where they have no ink.
-        assert_eq!(tones_of(strokes), [BLACK, TONE, TONE, TONE, PAPER]);
+        assert_eq!(tones_of(strokes), [BLACK, TONE, TONE, TONE, TONE, PAPER]);
     }
 }

@@ -270,36 +270,71 @@ impl Layers<'_> {
         calm: Calm,
     ) -> f32 {
         // Draw the first layer, which is all of most hatches.
-        let calmed = |layer: Hatching| {
-            let layer = untied(sharpened(layer, part.hatch_gain), calm.chart_distortion);
-            toned_hatch(layer, calm.abrupt.max(calm.cut))
-        };
-        let sheet = self.sheet(part, place);
+        let start = part.second_from;
+        let tone = (l, darkens);
         if part.flags & Part::TWO_LAYERS == 0 {
-            return ink_of_layer(part, place, (l, darkens), |place| calmed(sheet.at(place))).0;
+            let [ink, _] = self.ink_of_layer(part, place, tone, calm, |s| [s, 1.0]);
+            return ink;
         }
-        let first = |place: &HatchCoord| {
-            let layer = sheet.at(place);
-            calmed(scaled(layer, first_of_two(layer.s, part.second_from)))
-        };
-        let (ink, lightest) = ink_of_layer(part, place, (l, darkens), first);
+        let [ink, s] = self.ink_of_layer(part, place, tone, calm, |s| first_of_two(s, start));
 
         // The first layer settles most places, or they are too light for the second.
         if ink == 1.0 || !second_may_ink(part, l) {
             return ink;
         }
         let crossed = place.crossed();
-        let sheet = self.sheet(part, &crossed);
-        let second = |place: &HatchCoord| {
-            let layer = sheet.at(place);
-            calmed(scaled(layer, second_of_two(layer.s, part.second_from)))
+        let second = self.ink_of_layer(part, &crossed, tone, calm, |s| second_of_two(s, start));
+        if s <= second[1] { ink } else { second[0] }
+    }
+
+    /// Ink of one layer of a hatch over a pixel, 0..1, and its luminance S at the middle. The shade ramp has luminance
+    /// `l` there and changes F by `darkens` over a pixel; `share` is S within the layer and the factor on its slope.
+    ///
+    /// One straight edge is no picture of a hairline, which has two: where it runs through the middle of a pixel it
+    /// would cover half of it at least, and next to nothing where it runs between two, so that slanting tips of strokes
+    /// would be rows of dots. Where the crest of a stroke or of a gap may lie within the pixel, its thirds across the
+    /// strokes are therefore inked one by one.
+    fn ink_of_layer(
+        &self,
+        part: &Part,
+        place: &HatchCoord,
+        (l, darkens): (f32, [f32; 2]),
+        calm: Calm,
+        share: impl Fn(f32) -> [f32; 2],
+    ) -> [f32; 2] {
+        // Look the layer up at the middle of the pixel.
+        let sheet = self.sheet(part, place);
+        let layer_at = |place: &HatchCoord| {
+            let raw = sheet.at(place);
+            let layer = sharpened(scaled(raw, share(raw.s)), part.hatch_gain);
+            let layer = untied(layer, calm.chart_distortion);
+            toned_hatch(layer, calm.abrupt.max(calm.cut))
         };
-        let (second_ink, second_lightest) = ink_of_layer(part, &crossed, (l, darkens), second);
-        if lightest <= second_lightest {
-            ink
-        } else {
-            second_ink
+        let slope_of = |layer: &Hatching| {
+            let [right, down] = layer.slope;
+            length([right + darkens[0], down + darkens[1]]).max(layer.hairline)
+        };
+        let middle = layer_at(place);
+        let value = tone_value(middle.s, l);
+
+        // Take the edge for straight where no crest is near.
+        let is_plain = part.flags & Part::ISOTROPIC != 0
+            || (value - part.threshold).abs() > part.hatch_gain / part.spacing_px;
+        if is_plain {
+            let ink = ink_coverage(value, slope_of(&middle), part.threshold);
+            return [ink, middle.s];
         }
+
+        // Ink the thirds of the pixel across the strokes.
+        let across = place.across();
+        let third = |layer: &Hatching, off: f32| {
+            let darker = (across[0] * darkens[0] + across[1] * darkens[1]) * off;
+            let value = tone_value(layer.s, l) + darker;
+            ink_coverage(value, slope_of(layer) * THIRD, part.threshold)
+        };
+        let beside = |off: f32| third(&layer_at(&place.moved(across, off)), off);
+        let sum = third(&middle, 0.0) + beside(-THIRD) + beside(THIRD);
+        [sum * THIRD, middle.s]
     }
 
     /// How dark triangle `id` is to the pen at a position of the frame: light, faces and paint together.
@@ -451,44 +486,6 @@ impl HatchSheet<'_> {
     }
 }
 
-/// Ink of one layer of a hatch over a pixel, 0..1, and the luminance S at its middle. The shade ramp has luminance `l`
-/// there and changes F by `darkens` over a pixel; `at` is the layer at a place.
-///
-/// One straight edge is no picture of a hairline, which has two: where it runs through the middle of a pixel it would
-/// cover half of it at least, and next to nothing where it runs between two, so that slanting tips of strokes would be
-/// rows of dots. Where the crest of a stroke or of a gap may lie within the pixel, its thirds across the strokes are
-/// therefore inked one by one.
-fn ink_of_layer(
-    part: &Part,
-    place: &HatchCoord,
-    (l, darkens): (f32, [f32; 2]),
-    at: impl Fn(&HatchCoord) -> Hatching,
-) -> (f32, f32) {
-    let slope_of = |layer: &Hatching| {
-        let [right, down] = layer.slope;
-        length([right + darkens[0], down + darkens[1]]).max(layer.hairline)
-    };
-    let middle = at(place);
-    let value = tone_value(middle.s, l);
-    let is_plain = part.flags & Part::ISOTROPIC != 0
-        || (value - part.threshold).abs() > part.hatch_gain / part.spacing_px;
-    if is_plain {
-        return (
-            ink_coverage(value, slope_of(&middle), part.threshold),
-            middle.s,
-        );
-    }
-    let across = place.across();
-    let third = |layer: &Hatching, off: f32| {
-        let darker = (across[0] * darkens[0] + across[1] * darkens[1]) * off;
-        let value = tone_value(layer.s, l) + darker;
-        ink_coverage(value, slope_of(layer) * THIRD, part.threshold)
-    };
-    let beside = |off: f32| third(&at(&place.moved(across, off)), off);
-    let sum = third(&middle, 0.0) + beside(-THIRD) + beside(THIRD);
-    (sum * THIRD, middle.s)
-}
-
 impl Layers<'_> {
     /// Ink of a tone that changes by `change` to the right and down, on a flat sheet; `at` is the position on it in
     /// pixels, and a pixel covers `scale` tiles.
@@ -586,214 +583,4 @@ pub(crate) fn length(v: [f32; 2]) -> f32 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::backdrop::Rules;
-    use crate::compose::Compose;
-    use crate::hatch::{Hatch, levels};
-    use crate::lighting::Lights;
-    use npr_core::math;
-    use npr_core::texture::TextureStore;
-    use npr_core::window::{View, Window};
-    use proptest::prelude::*;
-
-    #[test]
-    fn the_shade_ramp_is_black_grey_white() {
-        let levels = [0.0, 0.25, 0.5, 0.75, 1.0].map(|x| shade_level(x, 0.25, 0.75));
-        assert_eq!(levels, [0.0, 0.0, 0.5, 1.0, 1.0]);
-        assert_eq!(shade_level(0.4, 0.5, 0.5), 0.0);
-        assert_eq!(shade_level(0.5, 0.5, 0.5), 1.0);
-    }
-
-    fn part(flags: u32) -> Part {
-        Part {
-            flags,
-            dark_at: 0.2,
-            light_at: 0.7,
-            threshold: 0.5,
-            ..Part::default()
-        }
-    }
-
-    proptest! {
-        #![proptest_config(ProptestConfig::with_cases(1000))]
-        #[test]
-        fn a_range_that_is_decided_is_so_for_every_hatch(
-            low in 0f32..1.0, width in 0f32..0.5, at in 0f32..1.0, s in 0f32..1.0, bits in 1u32..4,
-        ) {
-            let part = part(bits * Part::INK);
-            let range = [low, low + width];
-            let s = if part.flags & Part::HATCH != 0 { s } else { NO_HATCH };
-            if let Some(ink) = ink_over(&part, range) {
-                let value = tone_value(s, level_of(&part, low + width * at));
-                prop_assert_eq!(ink == 1.0, value < part.threshold);
-            }
-        }
-
-        /// Rough paper takes less ink than smooth one, in valleys; no triangle of a grained hatch is ink all over.
-        #[test]
-        fn the_grain_of_paper_takes_ink_in_valleys(
-            ink in 0f32..=1.0, x in 0f32..900.0, y in 0f32..900.0, grain in 0f32..2.0, low in 0f32..1.0,
-        ) {
-            let rough = |hatch_grain: f32| Part { hatch_grain, spots_per_px: 0.4, ..part(Part::HATCH) };
-            let [smooth, some, more] = [0.0, grain, grain + 0.3].map(|grain| on_paper(&rough(grain), ink, [x, y]));
-            prop_assert!(smooth == ink && (0.0..=ink).contains(&some) && more <= some);
-            if paper_height([x, y], 0.4) == 1.0 {
-                prop_assert_eq!(more, ink, "hills take all");
-            }
-            prop_assert!(ink_over(&rough(grain + 0.1), [low, low]) != Some(1.0));
-        }
-
-        /// The oracle is the ink that the hatch would give, at its steepest.
-        #[test]
-        fn a_level_that_decides_leaves_nothing_to_the_hatch(
-            l in 0f32..1.0, s in 0f32..1.0, gain in 0.1f32..3.0, spacing in 2f32..40.0, slope in 0f32..1.0,
-        ) {
-            let part = Part { hatch_gain: gain, spacing_px: spacing, ..part(Part::HATCH) };
-            if let Some(ink) = ink_of_level(&part, l) {
-                let gradient = edge_gradient(slope * 2.0 / spacing, spacing);
-                let want = ink_coverage(tone_value(sharpen(s, gain), l), gradient, part.threshold);
-                prop_assert!((ink - want).abs() < 1e-3, "{} for {}", ink, want);
-            }
-        }
-
-        #[test]
-        fn a_second_layer_left_out_would_have_inked_nothing(
-            l in 0f32..1.0, s in 0f32..1.0, start in 0f32..1.0, gain in 0.1f32..3.0, spacing in 2f32..40.0,
-        ) {
-            let part = Part { hatch_gain: gain, spacing_px: spacing, second_from: start, ..part(Part::HATCH) };
-            if !second_may_ink(&part, l) {
-                let [second, steeper] = second_of_two(s, start);
-                let gradient = gain * steeper * 2.0 / spacing;
-                let want = ink_coverage(tone_value(sharpen(second, gain), l), gradient, part.threshold);
-                prop_assert!(want < 1e-3, "{}", want);
-            }
-        }
-
-        #[test]
-        fn strokes_give_way_to_edges_within_their_spacing(s in 0f32..=1.0, per_px in 0f32..2.0, spacing in 2f32..20.0) {
-            let hatching = Hatching { s, slope: [0.3, 0.1], hairline: 0.2 };
-            let change = per_px * spacing;
-            let after = toned_hatch(hatching, abruptness(per_px, spacing));
-            prop_assert!((after.s - NO_HATCH).abs() <= (s - NO_HATCH).abs() + 1e-6);
-            prop_assert!(change > ABRUPT || after.s == s);
-            prop_assert!(change < 2.001 * ABRUPT || after.s == NO_HATCH);
-        }
-
-        #[test]
-        fn chart_distortion_only_fills_the_dark(s in 0f32..=1.0, l in 0f32..=1.0, chart_distortion in 0f32..=1.0) {
-            let before = Hatching { s, slope: [0.3, 0.1], hairline: 0.2 };
-            let after = untied(before, chart_distortion);
-            prop_assert!(after.s <= s);
-            // Where enough is white, nothing changes sides.
-            let is_inked = |s: f32| tone_value(s, l) < 0.5;
-            prop_assert!(l < 0.251 + 0.5 * DISTORTION_FILL || is_inked(after.s) == is_inked(s));
-            let tied = untied(before, 1.0);
-            prop_assert!(l > 0.249 + 0.5 * DISTORTION_FILL || tone_value(tied.s, l) < 0.5);
-        }
-
-        #[test]
-        fn hatch_without_ink_leaves_paper(x in 0f32..1.0) {
-            prop_assert!(tone_value(1.0, level_of(&part(Part::HATCH), x)) > 0.5);
-        }
-    }
-
-    const SIDE: usize = 160;
-
-    /// Ink of strokes at an angle whose tone runs from black to white, from left to right or from top to bottom.
-    fn ramp_of_strokes(angle: f32, spacing_px: f32, is_down: bool) -> Vec<f32> {
-        let hatch = Hatch {
-            length: 60.0,
-            ..Hatch::default()
-        };
-        let tile = levels(&hatch, 256).unwrap();
-        let words: Vec<Vec<u32>> = tile
-            .levels
-            .iter()
-            .map(|level| bytemuck::cast_slice(level).to_vec())
-            .collect();
-        let mut store = TextureStore::new();
-        let part = Part {
-            flags: Part::INK | Part::HATCH,
-            threshold: 0.5,
-            light_at: 1.0,
-            hatch: store
-                .add_tile(tile.side, tile.spacing_texels, &words)
-                .unwrap(),
-            hatch_gain: 1.0,
-            spacing_px,
-            turn: [math::cos(angle), math::sin(angle)],
-            ..Part::default()
-        };
-        let size = [SIDE as f32; 2];
-        let window = Window::over(size, [0.0; 2], size, [SIDE as u32; 2]);
-        let (view, lights, rules, compose) = (
-            View::default(),
-            Lights::default(),
-            Rules::default(),
-            Compose::default(),
-        );
-        let layers = Layers {
-            texels: store.words(),
-            ..Layers::empty(&view, &window, &compose, &lights, &rules)
-        };
-        let scale = tile.spacing_texels / (tile.side as f32 * spacing_px);
-        let per_px = 0.6 / SIDE as f32;
-        let change = if is_down {
-            [0.0, per_px]
-        } else {
-            [per_px, 0.0]
-        };
-        let ink_at = |i: usize| {
-            let at = [(i % SIDE) as f32 + 0.5, (i / SIDE) as f32 + 0.5];
-            layers.ink_on_sheet(
-                &part,
-                at,
-                scale,
-                0.2 + per_px * at[usize::from(is_down)],
-                change,
-            )
-        };
-        (0..SIDE * SIDE).map(ink_at).collect()
-    }
-
-    /// Pieces of up to `most` pixels that are in, joined by sides and corners, away from the picture's border.
-    fn specks(is_in: impl Fn(usize) -> bool, most: usize) -> usize {
-        let mut seen = vec![false; SIDE * SIDE];
-        let mut specks = 0;
-        for start in 0..SIDE * SIDE {
-            let mut open = vec![start];
-            let (mut size, mut is_inside) = (0, true);
-            while let Some(i) = open.pop() {
-                if std::mem::replace(&mut seen[i], true) || !is_in(i) {
-                    continue;
-                }
-                size += 1;
-                let [x, y] = [i % SIDE, i / SIDE];
-                is_inside &= (1..SIDE - 1).contains(&x) && (1..SIDE - 1).contains(&y);
-                for v in y.saturating_sub(1)..(y + 2).min(SIDE) {
-                    open.extend((x.saturating_sub(1)..(x + 2).min(SIDE)).map(|u| v * SIDE + u));
-                }
-            }
-            specks += usize::from(is_inside && (1..=most).contains(&size));
-        }
-        specks
-    }
-
-    proptest! {
-        #![proptest_config(ProptestConfig::with_cases(12))]
-
-        /// Strokes end in hairlines and so does the paper between them, whatever angle they have to the pixels; a
-        /// hairline that only covers pixels through whose middle it runs would be a row of dots, 35 to 140 of them.
-        #[test]
-        fn hairlines_are_no_rows_of_dots(first in 0f32..0.2, spacing_px in 8f32..12.0) {
-            let mut dots = [0, 0];
-            for i in 0..8 {
-                let ink = ramp_of_strokes(first + 0.19 * i as f32, spacing_px, i % 2 == 0);
-                dots[0] += specks(|i| ink[i] > 0.2, 8);
-                dots[1] += specks(|i| ink[i] < 0.8, 8);
-            }
-            prop_assert!(dots[0] + dots[1] <= 20, "dots of ink and of paper: {:?}", dots);
-        }
-    }
-}
+mod tests;
