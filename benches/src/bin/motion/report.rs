@@ -17,16 +17,19 @@ use crate::words;
 struct Bar {
     name: &'static str,
     films: &'static [Film],
+    /// Whether it is the mean over the sequences of a model that is judged, not each of them.
+    is_mean: bool,
     value: fn(&Tally) -> f64,
     most: f64,
     unit: &'static str,
 }
 
 /// The bars.
-const BARS: [Bar; 7] = [
+const BARS: [Bar; 9] = [
     Bar {
         name: "M4 drift, median",
         films: &[Film::Turn, Film::Dolly, Film::Pan, Film::Clip],
+        is_mean: false,
         value: Tally::drift,
         most: 1.0,
         unit: "px",
@@ -34,6 +37,23 @@ const BARS: [Bar; 7] = [
     Bar {
         name: "M4 ends lost",
         films: &[Film::Turn, Film::Dolly, Film::Pan, Film::Clip],
+        is_mean: false,
+        value: |tally| 100.0 * tally.lost(),
+        most: 3.0,
+        unit: "%",
+    },
+    Bar {
+        name: "M4 drift, mean of a model",
+        films: &[Film::Turn, Film::Pan, Film::Clip],
+        is_mean: true,
+        value: Tally::drift,
+        most: 1.0,
+        unit: "px",
+    },
+    Bar {
+        name: "M4 ends lost, mean of a model",
+        films: &[Film::Turn, Film::Pan, Film::Clip],
+        is_mean: true,
         value: |tally| 100.0 * tally.lost(),
         most: 3.0,
         unit: "%",
@@ -41,6 +61,7 @@ const BARS: [Bar; 7] = [
     Bar {
         name: "M5 pop",
         films: &[Film::Turn],
+        is_mean: false,
         value: |tally| 100.0 * tally.pop(),
         most: 1.0,
         unit: "%",
@@ -48,6 +69,7 @@ const BARS: [Bar; 7] = [
     Bar {
         name: "M5 pop",
         films: &[Film::Clip],
+        is_mean: false,
         value: |tally| 100.0 * tally.pop(),
         most: 2.0,
         unit: "%",
@@ -55,6 +77,7 @@ const BARS: [Bar; 7] = [
     Bar {
         name: "M6 flicker",
         films: &[Film::Turn, Film::Dolly, Film::Pan, Film::Clip],
+        is_mean: false,
         value: |tally| 100.0 * tally.flicker(),
         most: 0.1,
         unit: "%",
@@ -62,6 +85,7 @@ const BARS: [Bar; 7] = [
     Bar {
         name: "M7 jitter",
         films: &[Film::Pan],
+        is_mean: false,
         value: Tally::jitter,
         most: 0.3,
         unit: "px",
@@ -69,11 +93,32 @@ const BARS: [Bar; 7] = [
     Bar {
         name: "M7 bias",
         films: &[Film::Pan],
+        is_mean: false,
         value: |tally| tally.mean_bias().abs(),
         most: 0.5,
         unit: "px",
     },
 ];
+
+impl Bar {
+    /// Its values, and what they are of.
+    fn judged<'a>(&self, rows: impl Iterator<Item = &'a Measured>) -> Vec<(f64, String)> {
+        let value = |row: &Measured| (self.value)(&row.tally);
+        if !self.is_mean {
+            let of = |row: &Measured| format!("{}, {}", row.model, row.film.name());
+            return rows.map(|row| (value(row), of(row))).collect();
+        }
+        let mut of_models: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
+        for row in rows {
+            of_models.entry(&row.model).or_default().push(value(row));
+        }
+        let means = of_models.into_iter().map(|(model, values)| {
+            let mean = values.iter().sum::<f64>() / values.len() as f64;
+            (mean, model.to_owned())
+        });
+        means.collect()
+    }
+}
 
 /// Says what was measured, and where.
 pub fn heading() {
@@ -208,8 +253,7 @@ pub fn verdict(rows: &[Measured]) {
         let judged = rows
             .iter()
             .filter(|row| row.is_held == is_held && bar.films.contains(&row.film));
-        let judged: Vec<(f64, &Measured)> =
-            judged.map(|row| ((bar.value)(&row.tally), row)).collect();
+        let judged = bar.judged(judged);
         let Some((value, worst)) = judged.iter().max_by(|a, b| a.0.total_cmp(&b.0)) else {
             continue;
         };
@@ -222,7 +266,7 @@ pub fn verdict(rows: &[Measured]) {
             films.collect::<Vec<_>>().join(" "),
             format!("{} {}", bar.most, bar.unit),
             format!("{value:.2} {}", bar.unit),
-            format!("{}, {}", worst.model, worst.film.name()),
+            worst.clone(),
             format!("{met} of {}", judged.len()),
         ];
         let name = format!("{}{}", bar.name, if is_held { ", held" } else { "" });

@@ -7,9 +7,9 @@ use npr_vector::mesh_lines::HeldJoints;
 use npr_vector::stroke::Stroke;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Share of the least length below which a line goes that was drawn in the frame before: it shrinks to about a dash of
-/// 10 pixels first, where the least length is 24.
-const GOES_SHARE: f64 = 0.4;
+/// Share of the least length below which a line goes that was drawn in the frame before: it shrinks to a dash of 9
+/// pixels first, where the least length is 24.
+const GOES_SHARE: f64 = 0.375;
 
 /// The strokes of the frame drawn last, for [`LineModel::draw_held`](super::LineModel::draw_held); of every way to find
 /// lines its own, as a frame may have several.

@@ -5,6 +5,7 @@
 
 use crate::mesh_lines::near::{Cells, cells_within};
 use crate::mesh_lines::run::{Run, RunPoint, distance};
+use crate::stroke::Kind;
 use std::collections::BTreeSet;
 
 /// Within this distance of a longer run a sample is a double, in pixels.
@@ -34,17 +35,22 @@ const OVERLAP: usize = 2;
 /// A run shorter than this, all of it beside a longer one in any direction, is a hair, in pixels.
 const HAIR_PX: f64 = 12.0;
 
+/// A run shorter than this, all of it in the ink of longer ones, is a shred, in pixels: it would only lead their
+/// ends astray.
+const SHRED_PX: f64 = 4.0;
+
 /// Runs without doubles; order is kept. Runs must be sampled about evenly.
 ///
-/// What is left of a run is cut by majority, so that noise leaves no shreds, but not where it holds two ends
-/// together: a short bare part between the ends of two lines stays, however little it is, and so does a hair from one
-/// end to the other. O(samples) for lines that do not crowd in one place.
+/// What is left of a run is cut by majority, so that noise leaves no shreds, but not where it holds lines together: a
+/// short bare part from the end of a line to that of another stays, however little it is, of contours to the side of
+/// another, too, and so does a hair from one end to the other. O(samples) for lines that do not crowd in one place.
 pub fn suppress(runs: Vec<Run>) -> Vec<Run> {
     let mut taken = Taken::new();
     let mut kept: Vec<Vec<Run>> = vec![Vec::new(); runs.len()];
     for (index, length) in longest_first(&runs) {
         let run = &runs[index];
-        let is_hair = length < HAIR_PX && !run.closed && taken.surrounds(run);
+        let reach = if length < SHRED_PX { PEN_PX } else { BESIDE_PX };
+        let is_hair = length < HAIR_PX && !run.closed && taken.surrounds(run, reach);
         if is_hair && !taken.joins_ends(run) {
             continue;
         }
@@ -107,6 +113,9 @@ struct Sample {
 /// An end of a run: the number of the run, and whether it is the last.
 type Tip = (usize, bool);
 
+/// What a sample lies beside: a run, and the end of it, if it is one; `None` beside nothing.
+type Beside = Option<(usize, Option<Tip>)>;
+
 /// The samples of all runs taken so far, in cells.
 struct Taken {
     cells: Cells<Sample>,
@@ -125,8 +134,8 @@ impl Taken {
     /// A sample beside nothing may be cut away with most of the samples around it. It is not taken: otherwise others
     /// would be cut away for lying beside a line that is not drawn.
     fn doubled(&mut self, run: &Run, index: usize) -> Vec<bool> {
-        let samples = samples(run, index);
-        let mut beside: Vec<Option<Option<Tip>>> = Vec::with_capacity(samples.len());
+        let (samples, leads) = (samples(run, index), run.kind == Kind::Contour);
+        let mut beside: Vec<Beside> = Vec::with_capacity(samples.len());
         for i in 0..samples.len() + SETTLING {
             if let Some(sample) = samples.get(i) {
                 let is_beside = |other: &Sample| {
@@ -136,16 +145,18 @@ impl Taken {
                     other.occluded == sample.occluded && apart && cos.abs() > ALONG_COS
                 };
                 let nearest = self.nearest(sample.place, BESIDE_PX, is_beside);
-                beside.push(nearest.map(|other| other.tip));
+                beside.push(nearest.map(|other| (other.run, other.tip)));
             }
             // Later samples of this run are compared with this one.
             let settled = i.checked_sub(SETTLING);
-            let is_taken = |i: &usize| beside[*i].is_none() && is_drawn(&beside, *i);
+            let is_taken = |i: &usize| beside[*i].is_none() && is_drawn(&beside, *i, leads);
             if let Some(settled) = settled.filter(is_taken) {
                 self.add(samples[settled]);
             }
         }
-        (0..beside.len()).map(|i| is_cut(&beside, i)).collect()
+        (0..beside.len())
+            .map(|i| is_cut(&beside, i, leads))
+            .collect()
     }
 
     fn add(&mut self, sample: Sample) {
@@ -181,13 +192,11 @@ impl Taken {
         !run.closed && first != last && run.length() < 2.5 * PEN_PX
     }
 
-    /// Whether something taken lies beside every sample but one in five.
-    fn surrounds(&self, run: &Run) -> bool {
+    /// Whether something taken lies within reach of every sample but one in five.
+    fn surrounds(&self, run: &Run, reach: f64) -> bool {
         let beside = |place| {
-            self.nearest(place, BESIDE_PX, |other| {
-                other.occluded == (run.occluders > 0)
-            })
-            .is_some()
+            self.nearest(place, reach, |other| other.occluded == (run.occluders > 0))
+                .is_some()
         };
         let count = run
             .points
@@ -270,29 +279,35 @@ fn samples(run: &Run, index: usize) -> Vec<Sample> {
 }
 
 /// Whether most samples around one are beside something, and it holds no two ends together.
-fn is_cut(beside: &[Option<Option<Tip>>], index: usize) -> bool {
+fn is_cut(beside: &[Beside], index: usize, leads: bool) -> bool {
     let window = &beside[index.saturating_sub(MAJORITY)..(index + MAJORITY + 1).min(beside.len())];
     let count = window.iter().filter(|beside| beside.is_some()).count();
-    2 * count > window.len() && !holds_ends(beside, index)
+    2 * count > window.len() && !holds_ends(beside, index, leads)
 }
 
-/// Whether a sample lies in a part beside nothing that holds two ends together: before and after the part, the run is
-/// beside an end, and not the same one.
-fn holds_ends(beside: &[Option<Option<Tip>>], index: usize) -> bool {
-    let before = beside[..=index].iter().rev().find_map(|tip| *tip);
-    let after = beside[index..].iter().find_map(|tip| *tip);
-    match (beside[index], before.flatten(), after.flatten()) {
-        (None, Some(before), Some(after)) => before != after,
-        _ => false,
+/// Whether a sample lies in a part beside nothing that holds lines together: it leads from an end to another end, or,
+/// where it `leads`, as contours do, to another run. Without it the outline would have a gap at that end.
+fn holds_ends(beside: &[Beside], index: usize, leads: bool) -> bool {
+    let before = beside[..=index].iter().rev().find_map(|beside| *beside);
+    let after = beside[index..].iter().find_map(|beside| *beside);
+    let (None, Some((run_before, before)), Some((run_after, after))) =
+        (beside[index], before, after)
+    else {
+        return false;
+    };
+    match (before, after) {
+        (Some(before), Some(after)) => before != after,
+        (None, None) => false,
+        _ => leads && run_before != run_after,
     }
 }
 
 /// Whether a sample is one of enough in a row that are not cut away. Those within [`SETTLING`] of it decide.
-fn is_drawn(beside: &[Option<Option<Tip>>], index: usize) -> bool {
+fn is_drawn(beside: &[Beside], index: usize, leads: bool) -> bool {
     let rows = (index + 1).saturating_sub(LEAST_SAMPLES)..=index;
     rows.map(|from| from..from + LEAST_SAMPLES)
         .filter(|row| row.end <= beside.len())
-        .any(|mut row| row.all(|i| !is_cut(beside, i)))
+        .any(|mut row| row.all(|i| !is_cut(beside, i, leads)))
 }
 
 /// What is left of a run.
@@ -465,6 +480,14 @@ mod tests {
     }
 
     #[test]
+    fn shreds_in_the_ink_of_a_line_go() {
+        let with = |shred: Run| suppress(vec![line(1, [0.0, 0.0], [80.0, 0.0]), shred]).len();
+        assert_eq!(with(line(2, [40.0, 2.6], [43.5, 2.6])), 1);
+        assert_eq!(with(line(2, [40.0, 3.4], [43.5, 3.4])), 2);
+        assert_eq!(with(line(2, [40.0, 2.6], [45.0, 2.6])), 2, "it is longer");
+    }
+
+    #[test]
     fn a_short_fragment_that_holds_two_ends_together_stays() {
         let ends = [
             line(0, [0.0, 0.0], [40.0, 0.0]),
@@ -505,6 +528,33 @@ mod tests {
             let joined = merge_ends(suppress(runs), FACING_PX);
             prop_assert_eq!(joined.len(), 1);
             prop_assert!((joined[0].length() - gap - 180.0).abs() < 6.0, "{}", joined[0].length());
+        }
+
+        /// Where one line ends and another passes before it, a third beside both holds them together: an outline has no
+        /// gap at its corner.
+        #[test]
+        fn what_leads_from_an_end_to_a_line_stays(
+            angle in 0.0_f64..6.3, gap in 7.0_f64..10.0, over in 6.0_f64..30.0, along in 6.0_f64..40.0,
+            off in -1.0_f64..1.0, turned: bool,
+        ) {
+            let [sin, cos] = [angle.sin(), angle.cos()];
+            let turn = |places: &[[f64; 2]]| -> Vec<[f64; 2]> {
+                places.iter().map(|[x, y]| [x * cos - y * sin, x * sin + y * cos]).collect()
+            };
+            let way = |id: u64, places: &[[f64; 2]]| {
+                let steps = turn(places).windows(2).flat_map(|pair| line(id, pair[0], pair[1]).points).collect();
+                Run { points: steps, ..line(id, [0.0; 2], [1.0; 2]) }
+            };
+            let ends = way(0, &[[-90.0, 0.0], [0.0, 0.0]]);
+            let passes = way(1, &[[gap, -30.0], [gap, 70.0]]);
+            let mut third = way(2, &[[-over, off], [gap + off, off], [gap + off, off + along]]);
+            if turned {
+                third.reverse();
+            }
+            let kept = suppress(vec![ends, passes, third]);
+            let middle = turn(&[[0.5 * gap, off]])[0];
+            let mut inked = kept.iter().flat_map(|run| &run.points).map(|point| distance(point.place, middle));
+            prop_assert!(inked.any(|away| away < 1.0), "nothing leads on");
         }
 
         /// Which lines stay does not depend on their order.
