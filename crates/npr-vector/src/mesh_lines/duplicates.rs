@@ -113,8 +113,8 @@ struct Sample {
 /// An end of a run: the number of the run, and whether it is the last.
 type Tip = (usize, bool);
 
-/// What a sample lies beside: a run, and the end of it, if it is one; `None` beside nothing.
-type Beside = Option<(usize, Option<Tip>)>;
+/// What a sample lies beside: a run, and which end of it, if it is one: whether it is the last; `None` beside nothing.
+type Beside = Option<(usize, Option<bool>)>;
 
 /// The samples of all runs taken so far, in cells.
 struct Taken {
@@ -145,7 +145,8 @@ impl Taken {
                     other.occluded == sample.occluded && apart && cos.abs() > ALONG_COS
                 };
                 let nearest = self.nearest(sample.place, BESIDE_PX, is_beside);
-                beside.push(nearest.map(|other| (other.run, other.tip)));
+                beside
+                    .push(nearest.map(|other| (other.run, other.tip.map(|(_, is_last)| is_last))));
             }
             // Later samples of this run are compared with this one.
             let settled = i.checked_sub(SETTLING);
@@ -278,7 +279,7 @@ fn samples(run: &Run, index: usize) -> Vec<Sample> {
         .collect()
 }
 
-/// Whether most samples around one are beside something, and it holds no two ends together.
+/// Whether most samples around one are beside something, and it holds no lines together.
 fn is_cut(beside: &[Beside], index: usize, leads: bool) -> bool {
     let window = &beside[index.saturating_sub(MAJORITY)..(index + MAJORITY + 1).min(beside.len())];
     let count = window.iter().filter(|beside| beside.is_some()).count();
@@ -290,15 +291,13 @@ fn is_cut(beside: &[Beside], index: usize, leads: bool) -> bool {
 fn holds_ends(beside: &[Beside], index: usize, leads: bool) -> bool {
     let before = beside[..=index].iter().rev().find_map(|beside| *beside);
     let after = beside[index..].iter().find_map(|beside| *beside);
-    let (None, Some((run_before, before)), Some((run_after, after))) =
-        (beside[index], before, after)
-    else {
+    let (None, Some(before), Some(after)) = (beside[index], before, after) else {
         return false;
     };
-    match (before, after) {
-        (Some(before), Some(after)) => before != after,
+    match (before.1, after.1) {
+        (Some(_), Some(_)) => before != after,
         (None, None) => false,
-        _ => leads && run_before != run_after,
+        _ => leads && before.0 != after.0,
     }
 }
 
