@@ -30,6 +30,9 @@ pub struct HalfEdgeMesh {
     pub edge_starts: Vec<u32>,
     /// Half-edges, grouped by edge: of a manifold edge first the one that runs from its lower vertex.
     pub edge_sides: Vec<u32>,
+    /// The two vertices of every edge, the lower first: those of its half-edges, kept because views ask for them at
+    /// random, and faces are further away in memory.
+    pub edge_ends: Vec<[u32; 2]>,
     /// Cosine of the angle between the normals of the two faces of an edge; 1 where it has not two.
     pub dihedral_cos: Vec<f32>,
     /// The same between the file's normals in the middle of the edge; that of the faces where they have none. Empty
@@ -125,11 +128,13 @@ impl HalfEdgeMesh {
     /// The two vertices of an edge or a polyline, the lower first.
     #[inline]
     pub fn ends(&self, edge: u32) -> [u32; 2] {
-        let [a, b] = match self.polyline_of(edge) {
-            Some(polyline) => self.polylines[polyline],
-            None => self.ends_of_half_edge(self.sides(edge)[0]),
-        };
-        [a.min(b), a.max(b)]
+        self.edge_ends
+            .get(edge as usize)
+            .copied()
+            .unwrap_or_else(|| {
+                let [a, b] = self.polylines[edge as usize - self.edge_count()];
+                [a.min(b), a.max(b)]
+            })
     }
 
     /// Position of a vertex in the world.
@@ -224,6 +229,7 @@ impl HalfEdgeMesh {
                 self.edge_sides.len(),
                 half_edges,
             ),
+            ("two ends per edge", self.edge_ends.len(), edges),
             ("an angle per edge", self.dihedral_cos.len(), edges),
             (
                 "an angle of normals per edge, or none at all",

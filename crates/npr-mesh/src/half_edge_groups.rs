@@ -12,6 +12,8 @@ pub(crate) struct Sides {
     /// Where the half-edges of each edge start; one more than there are edges.
     pub(crate) starts: Vec<u32>,
     pub(crate) half_edges: Vec<u32>,
+    /// The lower and the higher vertex of every edge.
+    pub(crate) ends: Vec<[u32; 2]>,
     /// [`EdgeFlags::BOUNDARY`], [`EdgeFlags::NON_MANIFOLD`], [`EdgeFlags::FLIPPED`] or none of them for every
     /// edge.
     pub(crate) traits: Vec<EdgeFlags>,
@@ -44,7 +46,7 @@ impl Sides {
         // Sort every bucket by higher vertex and direction.
         let runs = buckets.gather(|run| {
             let mut sorted = SortedRun::default();
-            run.for_each(|start, keys| sorted.add(start, keys));
+            run.for_each(|start, keys| sorted.add(start, keys, &lower));
             sorted
         });
 
@@ -52,11 +54,13 @@ impl Sides {
         let mut sides = Self {
             starts: Vec::with_capacity(half_edge_count / 2 + 1),
             half_edges: Vec::with_capacity(half_edge_count),
+            ends: Vec::with_capacity(half_edge_count / 2),
             traits: Vec::with_capacity(half_edge_count / 2),
         };
         for run in runs {
             sides.starts.extend_from_slice(&run.starts);
             sides.half_edges.extend_from_slice(&run.half_edges);
+            sides.ends.extend_from_slice(&run.ends);
             sides.traits.extend_from_slice(&run.traits);
         }
         sides.starts.push(half_edge_count as u32);
@@ -72,27 +76,37 @@ fn key(faces: &[[u32; 3]], half_edge: u32) -> u64 {
     u64::from(tail.max(head)) << 32 | down | u64::from(half_edge)
 }
 
+/// The number of the half-edge of a key.
+fn half_edge_of(key: u64) -> u32 {
+    (key & (DOWN - 1)) as u32
+}
+
 /// Edges of consecutive lower vertices.
 #[derive(Default)]
 struct SortedRun {
     starts: Vec<u32>,
     half_edges: Vec<u32>,
+    ends: Vec<[u32; 2]>,
     traits: Vec<EdgeFlags>,
     scratch: Vec<u64>,
 }
 
 impl SortedRun {
-    /// Appends the edges of one lower vertex, whose half-edges start at `start` among all.
-    fn add(&mut self, start: usize, keys: &[u64]) {
+    /// Appends the edges of one lower vertex, whose half-edges start at `start` among all; `lower` has the lower vertices
+    /// of those of every face.
+    fn add(&mut self, start: usize, keys: &[u64], lower: &[[u32; 3]]) {
         self.scratch.clear();
         self.scratch.extend_from_slice(keys);
         self.scratch.sort_unstable();
         let mut start = start as u32;
         for edge in self.scratch.chunk_by(|a, b| a >> 32 == b >> 32) {
             self.starts.push(start);
+            let half_edge = half_edge_of(edge[0]) as usize;
+            let low = lower[half_edge / 3][half_edge % 3];
+            self.ends.push([low, (edge[0] >> 32) as u32]);
             self.traits.push(meeting(edge));
             self.half_edges
-                .extend(edge.iter().map(|key| (key & (DOWN - 1)) as u32));
+                .extend(edge.iter().map(|key| half_edge_of(*key)));
             start += edge.len() as u32;
         }
     }

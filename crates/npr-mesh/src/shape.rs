@@ -401,6 +401,7 @@ fn list_edges(part: &mut HalfEdgeMesh) {
     part.edge_traits = sides.traits;
     part.edge_starts = sides.starts;
     part.edge_sides = sides.half_edges;
+    part.edge_ends = sides.ends;
 }
 
 /// Faces with the corners of an earlier one, ascending: they share an edge and the corner opposite it.
@@ -674,6 +675,9 @@ fn extend(shape: &mut HalfEdgeMesh, part: HalfEdgeMesh) {
     shape
         .edge_sides
         .extend(part.edge_sides.iter().map(|&h| h + half_edge));
+    shape
+        .edge_ends
+        .extend(part.edge_ends.iter().map(|ends| ends.map(|v| v + vertex)));
     shape.dihedral_cos.extend(part.dihedral_cos);
     shape.edge_traits.extend(part.edge_traits);
     let degenerate_faces = part

@@ -41,6 +41,7 @@ fn shape_of(positions: Vec<[f32; 3]>, faces: Vec<[u32; 3]>) -> HalfEdgeMesh {
             shape.edge_sides.push(*side);
         }
         shape.edge_starts.push(shape.edge_sides.len() as u32);
+        shape.edge_ends.push(group[0].0);
         shape.edge_traits.push(EdgeFlags::NONE);
         shape.dihedral_cos.push(1.0);
     }

@@ -47,7 +47,7 @@ fn give_edges(shape: &mut HalfEdgeMesh) {
             false => edge.push(half_edge),
         }
     }
-    for (edge, sides) in sides.values().enumerate() {
+    for (edge, (ends, sides)) in sides.iter().enumerate() {
         let up = sides.iter().filter(|side| shape.runs_up(**side)).count();
         let traits = match (sides.len(), up) {
             (1, _) => EdgeFlags::BOUNDARY,
@@ -63,6 +63,7 @@ fn give_edges(shape: &mut HalfEdgeMesh) {
             shape.edge_of[*side as usize] = edge as u32;
         }
         shape.edge_sides.extend(sides);
+        shape.edge_ends.push(*ends);
         shape.edge_starts.push(shape.edge_sides.len() as u32);
         shape.edge_traits.push(traits);
         shape.dihedral_cos.push(1.0);

@@ -11,7 +11,7 @@ use npr_mesh::shape::{PosableMesh, Preparation, add_posable_mesh};
 use npr_scene::Scene;
 
 /// Bytes of a shape and its hierarchy for every triangle, its three half-edges and its share of the vertices.
-const BYTES_PER_TRIANGLE: usize = 272;
+const BYTES_PER_TRIANGLE: usize = 284;
 
 /// Bytes of a line segment: with its links in a shape, and with its visible parts in a view.
 pub(super) const BYTES_PER_POLYLINE: usize = 320;

@@ -20,6 +20,12 @@ pub const NEARER: f64 = 2.5e-7;
 /// Distance from an end of an edge, as a share of it, within which a face that the edge goes through touches the end.
 pub(crate) const NEAR_SHARE: f64 = 1e-6;
 
+/// How far single precision may move a box against a way, as a share of the largest coordinate.
+const ROUNDING: f32 = 5e-7;
+
+/// Number of nodes up to which it costs less to ask whether boxes meet than whether the way itself passes.
+const FEW_NODES: usize = 64;
+
 /// A hierarchy over all faces of a shape, for any number of views.
 #[derive(Clone)]
 pub struct FaceTree {
@@ -246,12 +252,11 @@ impl FaceTree {
     ) -> Vec<f64> {
         let direction = to - from;
         let mut places = Vec::new();
-        self.along(from, direction, |face| {
+        self.near(from, to, |face| {
             if !skip(face) {
                 let place = crossing(shape, face, from, direction);
                 places.extend(place.filter(|t| (-NEAR_SHARE..=1.0 + NEAR_SHARE).contains(t)));
             }
-            true
         });
         places.sort_by(f64::total_cmp);
         places
@@ -260,6 +265,34 @@ impl FaceTree {
     /// The faces of a leaf.
     pub(crate) fn faces_of(leaf: &Bvh2Node) -> Range<u32> {
         leaf.first_index..leaf.first_index + leaf.prim_count
+    }
+
+    /// Calls `visit` for every face whose box the short way between two points passes, and perhaps for others near it.
+    fn near(&self, from: DVec3, to: DVec3, mut visit: impl FnMut(u32)) {
+        let nodes = &self.bvh.nodes;
+        if nodes.is_empty() {
+            return;
+        }
+        let around = Around::new([from, to], self.extent);
+        let slab = Slab::new(from, to - from, self.extent);
+        let mut stack = Vec::with_capacity(64);
+        stack.push(0);
+        let mut count = 0_usize;
+        while let Some(index) = stack.pop() {
+            let node = &nodes[index as usize];
+            if node.is_leaf() {
+                Self::faces_of(node).for_each(&mut visit);
+                continue;
+            }
+            count += 1;
+            for child in [node.first_index, node.first_index + 1] {
+                let bounds = nodes[child as usize].aabb();
+                let passes = || count < FEW_NODES || slab.enter(bounds).is_finite();
+                if around.meets(bounds) && passes() {
+                    stack.push(child);
+                }
+            }
+        }
     }
 
     /// Calls `visit` for every face whose box the way passes, until it returns false.
@@ -313,6 +346,29 @@ pub(crate) fn bounds(b: &Aabb) -> [Vec4; 2] {
     [low.with_w(0.0), high.with_w(0.0)]
 }
 
+/// A box around a way, wider by as far as single precision may have moved other boxes against it.
+struct Around {
+    low: Vec4,
+    high: Vec4,
+}
+
+impl Around {
+    fn new(ends: [DVec3; 2], extent: f32) -> Self {
+        let [a, b] = ends.map(|end| end.as_vec3().extend(0.0));
+        let reach = a.abs().max(b.abs()).max_element().max(extent);
+        let pad = Vec4::splat(reach * ROUNDING);
+        Self {
+            low: a.min(b) - pad,
+            high: a.max(b) + pad,
+        }
+    }
+
+    fn meets(&self, b: &Aabb) -> bool {
+        let [low, high] = bounds(b);
+        (self.low.cmple(high) & low.cmple(self.high)).all()
+    }
+}
+
 /// A box test that rounding never makes miss a box.
 struct Slab {
     /// Subtracted from the lowest and the highest corner of boxes: the origin, moved by as far as single precision
@@ -335,7 +391,7 @@ impl Slab {
         });
         let reach = origin.abs().max_element().max(extent);
         let [x, y, z] = inverse;
-        let pad = Vec4::splat(reach * 5e-7);
+        let pad = Vec4::splat(reach * ROUNDING);
         Self {
             origins: [origin + pad, origin - pad],
             inverse: Vec4::new(x, y, z, 0.0),

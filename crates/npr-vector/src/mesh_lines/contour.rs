@@ -144,14 +144,18 @@ pub fn facing(shape: &HalfEdgeMesh, eye: &Eye) -> Vec<u8> {
 /// O(faces + contour · valence).
 pub fn contours(shape: &HalfEdgeMesh, front: &[u8], eye: &Eye) -> CurveGraph {
     // Gather the half-edges at which the front faces end.
-    let half_edges: Vec<u32> = front
-        .par_chunks(CHUNK)
+    let (twins, _) = shape.twins.as_chunks::<3>();
+    let half_edges: Vec<u32> = (front.par_chunks(CHUNK).zip(twins.par_chunks(CHUNK)))
         .enumerate()
-        .flat_map_iter(|(chunk, facing)| {
+        .flat_map_iter(|(chunk, (facing, twins))| {
             let mut found = Vec::new();
-            for (face, _) in facing.iter().enumerate().filter(|(_, front)| **front != 0) {
-                let first = 3 * (chunk * CHUNK + face) as u32;
-                found.extend((first..first + 3).filter(|side| leaves_front(shape, front, *side)));
+            let faces = facing.iter().zip(twins).zip(chunk * CHUNK..);
+            for ((_, twins), face) in faces.filter(|((is_front, _), _)| **is_front != 0) {
+                for (side, twin) in (3 * face as u32..).zip(twins) {
+                    if ends_front(front, *twin) {
+                        found.push(side);
+                    }
+                }
             }
             found
         })
@@ -177,8 +181,15 @@ pub fn contours(shape: &HalfEdgeMesh, front: &[u8], eye: &Eye) -> CurveGraph {
 
 /// Whether the face across a half-edge of a front face is missing or not front.
 fn leaves_front(shape: &HalfEdgeMesh, front: &[u8], half_edge: u32) -> bool {
-    let twin = shape.twins[half_edge as usize];
-    twin == NONE || front[twin as usize / 3] == 0
+    ends_front(front, shape.twins[half_edge as usize])
+}
+
+/// Whether the face of a half-edge is not front, or missing where it is [`NONE`].
+fn ends_front(front: &[u8], half_edge: u32) -> bool {
+    // There are fewer faces than a third of that number.
+    front
+        .get(half_edge as usize / 3)
+        .is_none_or(|front| *front == 0)
 }
 
 /// The half-edge of the set that starts where this one ends, around the same wedge of front faces.

@@ -101,7 +101,7 @@ fn items<'a>(
     lines: &'a [Option<Line>],
     chain: &[u32],
 ) -> (Vec<Item<'a>>, bool) {
-    let mut items: Vec<Item<'a>> = Vec::new();
+    let mut items: Vec<Item<'a>> = Vec::with_capacity(chain.len());
     let mut open = false;
     for node in chain {
         let Some(line) = &lines[*node as usize] else {
@@ -291,7 +291,8 @@ impl Maker<'_> {
         let [of_chain, of_graph] = NUMBER_BITS;
         let number = self.graph_number << of_graph | u64::from(chain[0]) << of_chain;
         let beyond = ways_behind(&items, &parts, (is_loop, number));
-        let parts = parts.into_iter().zip(beyond);
+        // One line may be nearly all there is.
+        let parts = parts.into_par_iter().zip(beyond).with_min_len(16);
         parts
             .filter(|([from, _], _)| is_made(&items[*from]))
             .map(|([from, to], beyond)| {

@@ -19,7 +19,7 @@ pub use occluders::Occluders;
 use outline_grid::NEAR_PX;
 pub use outline_grid::{Outline, OutlineGrid};
 pub(crate) use piece::MARGIN;
-pub use piece::Piece;
+pub use piece::{Piece, PieceImage};
 
 use crate::mesh_lines::bvh::{FaceTree, NEAR_SHARE, Sight};
 use crate::project::Projector;
@@ -267,7 +267,7 @@ impl Seen<'_> {
     /// By how many surfaces there are more in front of a piece once it has crossed an outline: the faces beside the
     /// outline that lie where it goes on, less those where it came from. Unknown where one is seen edge-on.
     fn change_across(&self, piece: &Piece, outline: &Outline) -> Change {
-        let [from, to] = outline.piece.place;
+        let [from, to] = outline.image.place;
         let across = [to[0] - from[0], to[1] - from[1]];
         let side =
             |place: [f64; 2]| across[0] * (place[1] - from[1]) - across[1] * (place[0] - from[0]);

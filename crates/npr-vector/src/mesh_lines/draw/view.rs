@@ -20,7 +20,7 @@ use crate::stroke::Kind;
 use npr_core::budget::{Budget, OverBudget};
 use npr_core::edge_flags::EdgeFlags;
 use npr_core::geometry::NONE;
-use npr_core::interrupt::{Interrupt, Interrupted};
+use npr_core::interrupt::Interrupt;
 use npr_core::line_kind::KindSet;
 use npr_mesh::half_edge::HalfEdgeMesh;
 use rayon::prelude::*;
@@ -28,6 +28,9 @@ use std::sync::atomic::Ordering;
 
 /// Crowded pieces that are looked at together, before their ink is counted.
 const ROUND: usize = 256;
+
+/// Lines that a thread looks for outlines among at once.
+const OUTLINES_AT_ONCE: usize = 512;
 
 /// The memory and the ink that a view has used up.
 pub(super) struct Toll {
@@ -104,6 +107,19 @@ impl Draft {
     }
 }
 
+/// The outlines among some lines, in their order.
+fn outlines_of<T: Sync>(
+    lines: &[T],
+    outline: impl Fn(&T) -> Option<Outline> + Sync,
+) -> Vec<Vec<Outline>> {
+    let among = |chunk: &[T]| {
+        let mut found = Vec::with_capacity(chunk.len());
+        found.extend(chunk.iter().filter_map(&outline));
+        found
+    };
+    lines.par_chunks(OUTLINES_AT_ONCE).map(among).collect()
+}
+
 /// One view of a shape.
 pub(super) struct View<'a> {
     pub(super) shape: &'a HalfEdgeMesh,
@@ -128,29 +144,20 @@ impl View<'_> {
         budget.take("outlines", most, size_of::<Outline>())?;
 
         // Take contours, features that are contours in this view, and open edges.
-        let loops = contours
-            .nodes
-            .par_iter()
-            .with_min_len(1024)
-            .filter(|node| node.flags & KindSet::CONTOUR != 0)
-            .filter_map(|node| self.outline(node.edge));
-        let odd = self
-            .prepared
-            .features
-            .nodes
-            .par_iter()
-            .with_min_len(1024)
-            .filter(|node| node.next != NONE && self.kinds_of(node) & KindSet::CONTOUR != 0)
-            .filter_map(|node| self.outline(node.edge));
-        let rims = self
-            .prepared
-            .rims
-            .par_iter()
-            .with_min_len(1024)
-            .filter_map(|edge| self.outline(*edge));
+        let contours = outlines_of(&contours.nodes, |node| {
+            let is_contour = node.flags & KindSet::CONTOUR != 0;
+            is_contour.then(|| self.outline(node.edge)).flatten()
+        });
+        let odd = outlines_of(&self.prepared.features.nodes, |node| {
+            let is_contour = node.next != NONE && self.kinds_of(node) & KindSet::CONTOUR != 0;
+            is_contour.then(|| self.outline(node.edge)).flatten()
+        });
+        let rims = outlines_of(&self.prepared.rims, |edge| self.outline(*edge));
 
         // Sort them into a grid over the picture.
-        let pieces = loops.chain(odd).chain(rims).collect();
+        let found = || contours.iter().chain(&odd).chain(&rims);
+        let mut pieces = Vec::with_capacity(found().map(Vec::len).sum());
+        found().for_each(|found| pieces.extend_from_slice(found));
         OutlineGrid::new(self.settings.size, pieces, budget)
     }
 
@@ -170,7 +177,8 @@ impl View<'_> {
     fn outline(&self, edge: u32) -> Option<Outline> {
         let piece = self.edge_piece(edge)?;
         let ends = self.shape.ends(edge);
-        Some(Outline { piece, edge, ends })
+        let image = piece.image();
+        Some(Outline { image, edge, ends })
     }
 
     fn edge_piece(&self, edge: u32) -> Option<Piece> {
@@ -217,15 +225,20 @@ impl View<'_> {
             .take("lines of a view", count, stretches::BYTES_PER_NODE)?;
 
         // Cut every piece that is not crowded, and look at what is seen of it.
+        let ended = Interrupt::new();
         let drafts: Vec<Option<Draft>> = graph
             .nodes
             .par_iter()
             .with_min_len(64)
             .map(|node| {
-                toll.interrupt.check()?;
-                Ok(self.draft(graph, node, seen, wanted))
+                if toll.interrupt.is_raised() {
+                    ended.raise();
+                    return None;
+                }
+                self.draft(graph, node, seen, wanted)
             })
-            .collect::<Result<_, Interrupted>>()?;
+            .collect();
+        ended.check()?;
         let mut lines = stretches::looked_at(self, graph, seen, (&drafts, &toll.interrupt))?;
 
         // Look at crowded pieces by the ink on the paper.

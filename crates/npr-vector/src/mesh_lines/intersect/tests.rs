@@ -25,6 +25,7 @@ fn shape_of(positions: &[[f32; 3]], faces: &[[u32; 3]]) -> HalfEdgeMesh {
         twins: vec![NONE; 3 * faces.len()],
         edge_of: vec![0; 3 * faces.len()],
         edge_starts: vec![0],
+        edge_ends: sides.keys().copied().collect(),
         dihedral_cos: vec![1.0; sides.len()],
         edge_traits: vec![EdgeFlags::NONE; sides.len()],
         surfaces: vec![Surface::default()],

@@ -1,6 +1,6 @@
 //! The outlines of a view in a grid over the picture, and where they cross a piece.
 
-use super::{Changes, Cut, MARGIN, Piece, Seen};
+use super::{Changes, Cut, MARGIN, Piece, PieceImage, Seen};
 use npr_core::budget::{Budget, OverBudget};
 use rayon::prelude::*;
 
@@ -19,11 +19,13 @@ const LEAST_SINE: f64 = 1e-7;
 /// number. Lines of usual models pass some dozens of outlines, the longest some hundreds.
 pub const CROWD: usize = 512;
 
-/// A piece of line at which something can begin or end hiding others.
+/// A piece of line at which something can begin or end hiding others; no more of it than crossings need, as views go
+/// through all of them at random.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(align(64))]
 pub struct Outline {
     /// Where it lies.
-    pub piece: Piece,
+    pub image: PieceImage,
     /// The mesh edge that it lies on.
     pub edge: u32,
     /// The vertices of the edge.
@@ -58,8 +60,8 @@ struct Bounds {
 }
 
 impl Bounds {
-    fn of(piece: &Piece) -> Self {
-        let [a, b] = piece.place.map(|place| place.map(|v| v as f32));
+    fn of(image: &PieceImage) -> Self {
+        let [a, b] = image.place.map(|place| place.map(|v| v as f32));
         // Single precision is coarser than that in large pictures.
         let pad = |v: f32| 2.0 * NEAR_PX as f32 + v.abs() * f32::EPSILON;
         let [x, y] = [0, 1].map(|i| [a[i].min(b[i]), a[i].max(b[i])]);
@@ -89,7 +91,7 @@ impl OutlineGrid {
     ) -> Result<Self, OverBudget> {
         let margin = MARGIN * f64::from(size[0].max(size[1])) + 1.0;
         let [width, height] = size.map(|side| f64::from(side) + 2.0 * margin);
-        let total: f64 = outlines.iter().map(|outline| outline.piece.length()).sum();
+        let total: f64 = outlines.iter().map(|outline| outline.image.length()).sum();
         // About one entry per outline and cell, whether outlines are many and short or few and long.
         let wanted = (width * height / (outlines.len() as f64 + 1.0)).sqrt();
         let cell_px = wanted
@@ -113,7 +115,7 @@ impl OutlineGrid {
         let chunks = || self.outlines.par_chunks(CHUNK).enumerate();
         let visit = |chunk: &[Outline], visit: &mut dyn FnMut(usize, usize)| {
             for (index, outline) in chunk.iter().enumerate() {
-                self.cells_of(&outline.piece, |cell| visit(index, cell));
+                self.cells_of(&outline.image, |cell| visit(index, cell));
             }
         };
         let count_of = |(_, chunk): (usize, &[Outline])| {
@@ -150,7 +152,7 @@ impl OutlineGrid {
         for [cell, outline] in found.iter().flatten() {
             let next = &mut cursor[*cell as usize];
             entries[*next as usize] = Entry {
-                bounds: Bounds::of(&self.outlines[*outline as usize].piece),
+                bounds: Bounds::of(&self.outlines[*outline as usize].image),
                 outline: *outline,
             };
             *next += 1;
@@ -167,15 +169,15 @@ impl OutlineGrid {
     /// Number of outlines in the cells that a piece's image passes; those in several cells count in each. O(cells).
     pub(crate) fn count_along(&self, piece: &Piece) -> usize {
         let mut count = 0_usize;
-        self.cells_of(piece, |cell| {
+        self.cells_of(&piece.image(), |cell| {
             count += (self.starts[cell + 1] - self.starts[cell]) as usize;
         });
         count
     }
 
-    /// Visits the cells that a piece's image passes, row by row.
-    fn cells_of(&self, piece: &Piece, mut visit: impl FnMut(usize)) {
-        let [a, b] = piece
+    /// Visits the cells that an image passes, row by row.
+    fn cells_of(&self, image: &PieceImage, mut visit: impl FnMut(usize)) {
+        let [a, b] = image
             .place
             .map(|p| [0, 1].map(|i| (p[i] - self.origin[i]) / self.cell_px));
         let (top, bottom) = if a[1] <= b[1] { (a, b) } else { (b, a) };
@@ -212,12 +214,13 @@ impl OutlineGrid {
         ends: Option<[u32; 2]>,
         changes: &mut Changes,
     ) {
-        let bounds = Bounds::of(piece);
+        let image = piece.image();
+        let bounds = Bounds::of(&image);
         let reach = NEAR_PX / piece.length().max(NEAR_PX);
         let is_own = |outline: &Outline| {
             ends.is_some_and(|ends| outline.ends.iter().any(|end| ends.contains(end)))
         };
-        self.cells_of(piece, |cell| {
+        self.cells_of(&image, |cell| {
             let [from, to] = [cell, cell + 1].map(|c| self.starts[c] as usize);
             for entry in &self.entries[from..to] {
                 // Find where the outline crosses the piece or passes an end.
@@ -228,20 +231,20 @@ impl OutlineGrid {
                 if is_own(outline) {
                     continue;
                 }
-                let Some(([own, other], area)) = crossing(piece, &outline.piece, reach) else {
+                let Some(([own, other], area)) = crossing(&image, &outline.image, reach) else {
                     continue;
                 };
                 let cuts = own > 1e-9 && own < 1.0 - 1e-9 && (-1e-9..=1.0 + 1e-9).contains(&other);
                 let is_near = [own.abs() < reach, (1.0 - own).abs() < reach];
-                let length = outline.piece.length().max(NEAR_PX);
+                let length = outline.image.length().max(NEAR_PX);
                 let reach = NEAR_PX / length;
                 if !(-reach..=1.0 + reach).contains(&other) {
                     continue;
                 }
 
                 // Leave out what lies behind the piece.
-                let behind = piece.coordinate_at(seen.projector, own);
-                let front = outline.piece.coordinate_at(seen.projector, other);
+                let behind = image.coordinate_at(seen.projector, own);
+                let front = outline.image.coordinate_at(seen.projector, other);
                 let touch = behind.abs() * 1e-6;
                 if front > behind + touch {
                     continue;
@@ -268,8 +271,8 @@ impl OutlineGrid {
 
 /// Where the lines through two images cross, as shares of both, with the area of the parallelogram between them; none
 /// where they are parallel, or cross farther than `reach` beyond the ends of the first.
-fn crossing(piece: &Piece, other: &Piece, reach: f64) -> Option<([f64; 2], f64)> {
-    let ([a, b], [c, d]) = (piece.place, other.place);
+fn crossing(image: &PieceImage, other: &PieceImage, reach: f64) -> Option<([f64; 2], f64)> {
+    let ([a, b], [c, d]) = (image.place, other.place);
     let along = [b[0] - a[0], b[1] - a[1]];
     let across = [d[0] - c[0], d[1] - c[1]];
     let between = [c[0] - a[0], c[1] - a[1]];

@@ -20,6 +20,15 @@ pub struct Piece {
     pub range: [f64; 2],
 }
 
+/// A piece in the picture alone.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PieceImage {
+    /// Ends in the picture, in pixels.
+    pub place: [[f64; 2]; 2],
+    /// Depths of the ends.
+    pub depth: [f64; 2],
+}
+
 impl Piece {
     /// The part of a line from `a` to `b` in front of the near plane and within the frame and a margin; `None` if
     /// nothing is left.
@@ -48,6 +57,18 @@ impl Piece {
             }
         }
 
+        // What lies in the frame whole needs no more.
+        if range == [0.0, 1.0] && shown == [0.0, 1.0] {
+            let piece = Self {
+                world: [a, b],
+                place,
+                depth,
+                range,
+            };
+            let is_finite = piece.place.iter().flatten().all(|v| v.is_finite());
+            return is_finite.then_some(piece);
+        }
+
         // Turn shares of the image back into shares of the line.
         let [from, to] = range;
         let range = shown.map(|s| from + (to - from) * projector.world_share(s, depth));
@@ -66,10 +87,15 @@ impl Piece {
             .then_some(piece)
     }
 
+    /// The piece in the picture.
+    pub fn image(&self) -> PieceImage {
+        let Self { place, depth, .. } = *self;
+        PieceImage { place, depth }
+    }
+
     /// Length in the picture, in pixels.
     pub fn length(&self) -> f64 {
-        let [a, b] = self.place;
-        ((b[0] - a[0]).powi(2) + (b[1] - a[1]).powi(2)).sqrt()
+        self.image().length()
     }
 
     /// Place in the picture at a share of the image.
@@ -80,6 +106,14 @@ impl Piece {
     /// Point in the world at a share of the image.
     pub fn world_at(&self, projector: &Projector, share: f64) -> DVec3 {
         self.world[0].lerp(self.world[1], projector.world_share(share, self.depth))
+    }
+}
+
+impl PieceImage {
+    /// Length in pixels.
+    pub fn length(&self) -> f64 {
+        let [a, b] = self.place;
+        ((b[0] - a[0]).powi(2) + (b[1] - a[1]).powi(2)).sqrt()
     }
 
     /// 1 / depth in perspective, depth in parallel view, at a share of the image: linear along it.

@@ -426,7 +426,7 @@ impl FaceCells {
                 return;
             }
             let projector = sights.seen.projector;
-            let orders = part.map(|share| piece.coordinate_at(projector, share));
+            let orders = part.map(|share| piece.image().coordinate_at(projector, share));
             let farthest = orders[0].max(orders[1]);
             let ends = part.map(|share| self.grid.place(piece.place_at(share)).extend(1.0));
             let least = orders.map(|order| order - touching(projector, order));
