@@ -566,3 +566,34 @@ fn crossing(shape: &HalfEdgeMesh, face: u32, eye: DVec3, direction: DVec3) -> Op
     let place = (a * u + b * v + c * w) / sum;
     Some(place.dot(direction) / direction.length_squared())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use npr_mesh::testing::{crossing_soup, mapped, shape_of};
+    use proptest::prelude::*;
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(500))]
+
+        /// The tree leaves out no face that a way goes through, be the way short or long and the faces few or many.
+        #[test]
+        fn piercings_are_those_of_all_faces(
+            faces in 0_usize..1500, seed: u64, from in prop::array::uniform3(-1.0_f64..1.0),
+            way in prop::array::uniform3(-1.0_f64..1.0), length in prop::sample::select(&[1e-3, 0.1, 2.0]),
+            size in prop::sample::select(&[1e-3_f32, 1.0, 1e4]), skipped in 0_u32..7,
+        ) {
+            let shape = shape_of(&mapped(&crossing_soup(faces, seed), |p| p.map(|v| v * size)));
+            let from = DVec3::from(from) * f64::from(size);
+            let to = from + DVec3::from(way) * f64::from(size) * length;
+            let skip = |face: u32| skipped > 0 && face % 7 == skipped;
+            let found = FaceTree::new(&shape).piercings_between(&shape, [from, to], skip);
+
+            let all = (0..shape.faces.len() as u32).filter(|face| !skip(*face));
+            let places = all.filter_map(|face| crossing(&shape, face, from, to - from));
+            let mut expected: Vec<f64> = places.filter(|at| (-NEAR_SHARE..=1.0 + NEAR_SHARE).contains(at)).collect();
+            expected.sort_by(f64::total_cmp);
+            prop_assert_eq!(found, expected);
+        }
+    }
+}
