@@ -92,8 +92,8 @@ struct SortedRun {
 }
 
 impl SortedRun {
-    /// Appends the edges of one lower vertex, whose half-edges start at `start` among all; `lower` has the lower vertices
-    /// of those of every face.
+    /// Appends the edges of one lower vertex, whose half-edges start at `start` among all; `lower` has the lower vertex
+    /// of every half-edge, face by face.
     fn add(&mut self, start: usize, keys: &[u64], lower: &[[u32; 3]]) {
         self.scratch.clear();
         self.scratch.extend_from_slice(keys);
