@@ -106,12 +106,9 @@ struct Sample {
     /// Distance from the start of its run, in pixels.
     at: f64,
     occluded: bool,
-    /// The end of its run, if it lies within a pen's width of one.
-    tip: Option<Tip>,
+    /// Whether the end of its run is the last, if it lies within a pen's width of one.
+    tip: Option<bool>,
 }
-
-/// An end of a run: the number of the run, and whether it is the last.
-type Tip = (usize, bool);
 
 /// What a sample lies beside: a run, and which end of it, if it is one: whether it is the last; `None` beside nothing.
 type Beside = Option<(usize, Option<bool>)>;
@@ -145,8 +142,7 @@ impl Taken {
                     other.occluded == sample.occluded && apart && cos.abs() > ALONG_COS
                 };
                 let nearest = self.nearest(sample.place, BESIDE_PX, is_beside);
-                beside
-                    .push(nearest.map(|other| (other.run, other.tip.map(|(_, is_last)| is_last))));
+                beside.push(nearest.map(|other| (other.run, other.tip)));
             }
             // Later samples of this run are compared with this one.
             let settled = i.checked_sub(SETTLING);
@@ -182,7 +178,8 @@ impl Taken {
         let tip = |point: &RunPoint| {
             let is_tip =
                 |other: &Sample| other.tip.is_some() && other.occluded == (run.occluders > 0);
-            self.nearest(point.place, PEN_PX, is_tip)?.tip
+            let end = self.nearest(point.place, PEN_PX, is_tip)?;
+            Some((end.run, end.tip))
         };
         let [Some(first), Some(last)] =
             [&run.points[0], &run.points[run.points.len() - 1]].map(tip)
@@ -262,8 +259,8 @@ fn stations(run: &Run) -> Vec<f64> {
 fn samples(run: &Run, index: usize) -> Vec<Sample> {
     let (stations, length) = (stations(run), run.length());
     let tip = |at: f64| match run.closed {
-        false if at < PEN_PX => Some((index, false)),
-        false if length - at < PEN_PX => Some((index, true)),
+        false if at < PEN_PX => Some(false),
+        false if length - at < PEN_PX => Some(true),
         _ => None,
     };
     let points = run.points.iter().zip(directions(run)).zip(stations);
