@@ -128,13 +128,13 @@ impl HalfEdgeMesh {
     /// The two vertices of an edge or a polyline, the lower first.
     #[inline]
     pub fn ends(&self, edge: u32) -> [u32; 2] {
-        self.edge_ends
-            .get(edge as usize)
-            .copied()
-            .unwrap_or_else(|| {
-                let [a, b] = self.polylines[edge as usize - self.edge_count()];
+        match self.polyline_of(edge) {
+            Some(polyline) => {
+                let [a, b] = self.polylines[polyline];
                 [a.min(b), a.max(b)]
-            })
+            }
+            None => self.edge_ends[edge as usize],
+        }
     }
 
     /// Position of a vertex in the world.

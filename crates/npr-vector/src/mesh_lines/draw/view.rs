@@ -107,19 +107,6 @@ impl Draft {
     }
 }
 
-/// The outlines among some lines, in their order.
-fn outlines_of<T: Sync>(
-    lines: &[T],
-    outline: impl Fn(&T) -> Option<Outline> + Sync,
-) -> Vec<Vec<Outline>> {
-    let among = |chunk: &[T]| {
-        let mut found = Vec::with_capacity(chunk.len());
-        found.extend(chunk.iter().filter_map(&outline));
-        found
-    };
-    lines.par_chunks(OUTLINES_AT_ONCE).map(among).collect()
-}
-
 /// One view of a shape.
 pub(super) struct View<'a> {
     pub(super) shape: &'a HalfEdgeMesh,
@@ -144,15 +131,14 @@ impl View<'_> {
         budget.take("outlines", most, size_of::<Outline>())?;
 
         // Take contours, features that are contours in this view, and open edges.
-        let contours = outlines_of(&contours.nodes, |node| {
-            let is_contour = node.flags & KindSet::CONTOUR != 0;
-            is_contour.then(|| self.outline(node.edge)).flatten()
+        let contours = self.outlines_among(&contours.nodes, |node| {
+            (node.flags & KindSet::CONTOUR != 0).then_some(node.edge)
         });
-        let odd = outlines_of(&self.prepared.features.nodes, |node| {
+        let odd = self.outlines_among(&self.prepared.features.nodes, |node| {
             let is_contour = node.next != NONE && self.kinds_of(node) & KindSet::CONTOUR != 0;
-            is_contour.then(|| self.outline(node.edge)).flatten()
+            is_contour.then_some(node.edge)
         });
-        let rims = outlines_of(&self.prepared.rims, |edge| self.outline(*edge));
+        let rims = self.outlines_among(&self.prepared.rims, |edge| Some(*edge));
 
         // Sort them into a grid over the picture.
         let found = || contours.iter().chain(&odd).chain(&rims);
@@ -172,6 +158,21 @@ impl View<'_> {
             let is_contour = sides.len() == 2 && fronts.count() == 1;
             Some((edge, is_contour.then(|| self.edge_piece(edge)).flatten()?))
         })
+    }
+
+    /// The outlines on the edges of some lines, in their order.
+    fn outlines_among<T: Sync>(
+        &self,
+        lines: &[T],
+        edge_of: impl Fn(&T) -> Option<u32> + Sync,
+    ) -> Vec<Vec<Outline>> {
+        let among = |chunk: &[T]| {
+            let mut found = Vec::with_capacity(chunk.len());
+            let edges = chunk.iter().filter_map(&edge_of);
+            found.extend(edges.filter_map(|edge| self.outline(edge)));
+            found
+        };
+        lines.par_chunks(OUTLINES_AT_ONCE).map(among).collect()
     }
 
     fn outline(&self, edge: u32) -> Option<Outline> {

@@ -20,7 +20,7 @@ const LEAST_SINE: f64 = 1e-7;
 pub const CROWD: usize = 512;
 
 /// A piece of line at which something can begin or end hiding others; no more of it than crossings need, as views go
-/// through all of them at random.
+/// through all of them at random, and each fills one line of the cache.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(align(64))]
 pub struct Outline {

@@ -57,27 +57,25 @@ impl Piece {
             }
         }
 
-        // What lies in the frame whole needs no more.
-        if range == [0.0, 1.0] && shown == [0.0, 1.0] {
-            let piece = Self {
+        // Turn shares of the image back into shares of the line, unless it lies in the frame whole.
+        let is_whole = range == [0.0, 1.0] && shown == [0.0, 1.0];
+        let piece = if is_whole {
+            Self {
                 world: [a, b],
                 place,
                 depth,
                 range,
-            };
-            let is_finite = piece.place.iter().flatten().all(|v| v.is_finite());
-            return is_finite.then_some(piece);
-        }
-
-        // Turn shares of the image back into shares of the line.
-        let [from, to] = range;
-        let range = shown.map(|s| from + (to - from) * projector.world_share(s, depth));
-        let world = range.map(|t| a.lerp(b, t));
-        let piece = Self {
-            world,
-            place: world.map(|p| projector.project(p)),
-            depth: world.map(|p| projector.depth(p)),
-            range,
+            }
+        } else {
+            let [from, to] = range;
+            let range = shown.map(|s| from + (to - from) * projector.world_share(s, depth));
+            let world = range.map(|t| a.lerp(b, t));
+            Self {
+                world,
+                place: world.map(|p| projector.project(p)),
+                depth: world.map(|p| projector.depth(p)),
+                range,
+            }
         };
         piece
             .place
